@@ -1,0 +1,10 @@
+// Everything of the core library, Alpenglow::atmosphere.
+#pragma once
+
+#include <alpenglow/context.h>
+#include <alpenglow/parameters.h>
+#include <alpenglow/probe.h>
+#include <alpenglow/tables.h>
+#include <alpenglow/types.h>
+#include <alpenglow/version.h>
+#include <alpenglow/view.h>

@@ -1,0 +1,114 @@
+// The precomputed tables of an atmosphere: T, E and S of Bruneton & Neyret 2008, baked in slices
+// into the host's command buffers.
+#pragma once
+
+#include <alpenglow/context.h>
+#include <alpenglow/parameters.h>
+
+namespace alpenglow {
+inline namespace v1 {
+
+struct Tables;  ///< Opaque.
+
+enum class TableFormat : uint32_t { Half, Float };  ///< RGBA16F, RGBA32F.
+enum class MieStorage : uint32_t {
+  Full,    ///< Single Mie scattering in a table of its own, three channels (six values).
+  Packed,  ///< Its first channel in the alpha of S; the others by the paper's rule (four values).
+};
+enum class Solver : uint32_t { Standard };  ///< The paper's Algorithm 4.1.
+
+/// Texels of each table. 0 means the paper's: T 256x64 (mu x r), E 64x16 (mu_s x r) and
+/// S 32x128x32x8 (r x mu x mu_s x nu). Each at least 2; scatteringMu at least 4 and even.
+struct TableSizes {
+  uint32_t transmittanceMu = 0, transmittanceR = 0;
+  uint32_t irradianceMuS = 0, irradianceR = 0;
+  uint32_t scatteringR = 0, scatteringMu = 0, scatteringMuS = 0, scatteringNu = 0;
+};
+TableSizes defaultTableSizes();
+
+struct TableDesc {
+  Solver solver = Solver::Standard;
+  uint32_t orders = 0;  ///< Most events of a path; 0 means the solver's default (5).
+  TableFormat format = TableFormat::Half;
+  MieStorage mie = MieStorage::Full;
+  TableSizes sizes;
+};
+
+/// Checks parameters and sizes, allocates, and records nothing. The tables are then Ok to bake or to
+/// upload. `tables` is destroyed with destroyTables, before its context.
+Status createTables(Context* context, const Parameters& parameters, const TableDesc& desc,
+                    Tables** out);
+
+/// Frees the tables once `frame.completed` of a later call reaches `frame.submitting`. Also cancels
+/// a bake. Null is ignored.
+void destroyTables(Tables* tables, const FrameInfo& frame);
+
+/// One pass of the bake.
+struct BakeProgress {
+  bool done = false;
+  const char* pass = "";     ///< The pass this call recorded into, such as "dJ 3". Static string
+                             ///< of the tables, valid while they live.
+  uint32_t passIndex = 0;    ///< 0 ... passCount - 1.
+  uint32_t passCount = 0;
+  bool passFinished = false; ///< This call recorded the pass's last tile.
+  uint32_t order = 0;        ///< Scattering order that the pass belongs to; 0 for T.
+  uint64_t unitsDone = 0;    ///< Work units recorded so far; a unit is about one table fetch.
+  uint64_t unitsTotal = 0;
+  uint64_t unitsRecorded = 0; ///< By this call.
+};
+
+/// Records the next slice of the bake: at least one tile, at most about `budget` work units, never
+/// more than one pass (0: the rest of the pass). Call it until `progress->done`; each call's
+/// commands must execute in order on one queue. The finished tables are the same, byte for byte,
+/// however the bake is sliced. Leaves no state bound but the compute pipeline, set 0 and push
+/// constants. Scratch tables are freed when the frame of the last call completes.
+/// `pipelineStatistics` of a slice go between the caller's own commands.
+Status recordBake(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame,
+                  uint64_t budget, BakeProgress* progress);
+
+enum class TableId : uint32_t {
+  OpticalDepth,    ///< -ln T towards the top: x mu, y r. RGB, A = 0.
+  Irradiance,      ///< E of the sky on the ground, per unit solar irradiance: x mu_s, y r.
+  Scattering,      ///< S: C_* = S_R[L0] + S[L_*] / P_R, alpha C_M first channel if packed.
+  SingleMie,       ///< C_M = S_M[L0] / P_M; only with MieStorage::Full.
+  OrderIrradiance, ///< dE of the order just finished (order 1: the sun's direct light).
+  OrderScattering, ///< dS of the order just finished (order 1: Rayleigh, without phase).
+  OrderSingleMie,  ///< Order 1 only: Mie, without phase function.
+};
+inline constexpr uint32_t kTableIdCount = 7;
+
+/// Shape of a table as its image has it. Texel (x, y, z); S has x = mu_s + sizeMuS * nu, y = mu,
+/// z = r.
+struct TableInfo {
+  const char* name = "";
+  uint32_t width = 0, height = 0, depth = 0;
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  uint64_t bytes = 0;  ///< Of a tightly packed copy.
+};
+/// Unsupported for a table that this description doesn't have.
+Status tableInfo(const Tables* tables, TableId id, TableInfo* out);
+
+/// Records a copy into `buffer` (usage TRANSFER_DST), tightly packed from `offset` (a multiple of
+/// 16). Legal when the table is finished: T, E, S and the single Mie once the bake is done, those of
+/// an order right after the pass that finished them ("dS n"), before the next recordBake. The copy
+/// is made visible to the host's reads. NotReady otherwise.
+Status recordTableReadback(Tables* tables, VkCommandBuffer commands, TableId id, VkBuffer buffer,
+                           VkDeviceSize offset);
+
+/// Records the filling of OpticalDepth, Irradiance, Scattering or SingleMie from `buffer` (usage
+/// TRANSFER_SRC), laid out as a readback leaves it. When all of them are uploaded, the tables are
+/// ready, without a bake. The host checks that the data are for these parameters.
+Status recordTableUpload(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame,
+                         TableId id, VkBuffer buffer, VkDeviceSize offset);
+
+/// True when the tables are baked or uploaded, so that views and probes may use them.
+bool tablesReady(const Tables* tables);
+
+/// The descriptor set that alpenglow/atmosphere.glsl binds: 0 uniform parameters, 1 T, 2 E, 3 S,
+/// 4 single Mie (a copy of S when packed). For compute and fragment stages. The images are in
+/// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL once ready. Owned by the context and the tables.
+VkDescriptorSetLayout tableSetLayout(const Context* context);
+VkDescriptorSet tableSet(const Tables* tables);
+
+}  // namespace v1
+}  // namespace alpenglow

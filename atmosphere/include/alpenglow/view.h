@@ -1,0 +1,92 @@
+// Drawing: a view records sky, sun disc, ground sphere and the air in front of it into a rendering
+// scope that the host has begun, from the ground to outer space.
+#pragma once
+
+#include <alpenglow/tables.h>
+
+namespace alpenglow {
+inline namespace v1 {
+
+struct View;  ///< Opaque.
+
+enum class Projection : uint32_t {
+  Perspective,  ///< fov is vertical, in (0, pi).
+  Fisheye,      ///< Equidistant; fov is the full circle's, in (0, 2 pi]; the largest centred circle
+                ///< of the viewport, black outside.
+};
+
+enum class DepthConvention : uint32_t {
+  Standard,  ///< 0 near, 1 far.
+  Reversed,  ///< 1 near, 0 far.
+};
+
+/// An equirectangular map of the ground's albedo: u = 0 at longitude -180 degrees, v = 0 at the
+/// north pole. Give an sRGB format if the image is sRGB. All zero: the uniform albedo.
+struct GroundAlbedoMap {
+  VkImageView view = VK_NULL_HANDLE;
+  VkSampler sampler = VK_NULL_HANDLE;  ///< Repeat in u, clamp in v, linear, with mip levels.
+  VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+  uint32_t width = 0, height = 0;  ///< Of level 0, in texels.
+};
+
+/// What the host's rendering scope looks like. Everything stays the host's.
+struct ViewDesc {
+  VkFormat colorFormat = VK_FORMAT_UNDEFINED;
+  VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< With depth, only far pixels are drawn.
+  DepthConvention depth = DepthConvention::Standard;
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+  VkRenderPass renderPass = VK_NULL_HANDLE;  ///< Null: dynamic rendering.
+  uint32_t subpass = 0;
+  uint32_t viewMask = 0;  ///< Must be 0: multiview is refused by this version.
+  Projection projection = Projection::Perspective;
+  MieStorage mie = MieStorage::Full;  ///< As the tables that will be drawn with.
+  GroundAlbedoMap groundAlbedo;
+};
+
+/// Checks the description and makes the pipelines.
+Status createView(Context* context, const ViewDesc& desc, View** out);
+/// Frees the view once `frame.completed` of a later call reaches `frame.submitting`.
+void destroyView(View* view, const FrameInfo& frame);
+
+/// Where the camera is and looks, in the planet's frame: origin at the centre, z to the north pole,
+/// x to latitude 0, longitude 0; metres. Altitude is |position| - Rg, taken in double; below the
+/// ground it is clamped to 0.
+struct Camera {
+  double position_m[3] = {};
+  double forward[3] = {};  ///< Unit vectors, orthogonal.
+  double up[3] = {};
+  double fov = 0.0;  ///< Radians, see Projection.
+};
+
+/// The sun of this frame: never state of the tables.
+struct Sun {
+  double direction[3] = {};  ///< Unit vector towards the sun, in the planet's frame.
+  Spectrum irradiance;       ///< At the top of the atmosphere.
+  double discRadius = 0.0;   ///< Angular, radians; 0 draws no disc.
+};
+
+struct SkyDraw {
+  Camera camera;
+  Sun sun;
+  double radianceScale = 0.0;  ///< Factor on the stored radiance, so that night survives half
+                               ///< floats; 0 means 1.
+  VkRect2D viewport = {};      ///< In pixels of the colour attachment.
+};
+
+/// Records one full-screen draw of the viewport inside the host's rendering scope, with dynamic
+/// viewport and scissor. The tables must be ready. Clobbers: graphics pipeline, sets 0 and 1, push
+/// constants, viewport, scissor.
+Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame,
+                 const Tables* tables, const SkyDraw& draw);
+
+/// A camera above a point of the planet, as scene files give it. Angles in radians: heading
+/// clockwise from north, pitch above the horizon (pi/2: the zenith), roll clockwise.
+Camera cameraFromGeodetic(const Parameters& parameters, double latitude, double longitude,
+                          double altitude_m, double heading, double pitch, double roll, double fov);
+/// Unit vector towards a sun seen at these angles about the camera's local vertical: elevation
+/// above the horizontal, azimuth clockwise from north.
+void sunDirection(double latitude, double longitude, double elevation, double azimuth,
+                  double direction[3]);
+
+}  // namespace v1
+}  // namespace alpenglow
