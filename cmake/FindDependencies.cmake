@@ -1,0 +1,23 @@
+# Everything that is looked for on the machine, in one place.
+
+find_package(Vulkan REQUIRED)  # The headers; no library of ours links to the loader.
+target_link_libraries(alpenglow_headers INTERFACE Vulkan::Headers)
+target_link_libraries(alpenglow_options INTERFACE $<BUILD_INTERFACE:Vulkan::Headers>)
+
+find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+find_program(SPIRV_VAL spirv-val REQUIRED)
+
+# GLM compiles the physics of the shaders as C++; it is in no public header.
+find_package(glm REQUIRED)
+
+find_package(Threads REQUIRED)
+if(ALPENGLOW_BUILD_IO)
+  include(AlpenglowOpenImageIO)
+  find_package(nlohmann_json 3.11 REQUIRED)
+endif()
+if(ALPENGLOW_BUILD_SAMPLES)
+  find_package(CLI11 REQUIRED)
+endif()
+if(ALPENGLOW_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+endif()

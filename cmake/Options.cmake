@@ -1,0 +1,47 @@
+# What every room compiles with. `alpenglow_options` never leaves the build tree: its properties are
+# wrapped in BUILD_INTERFACE, so that a room may link it privately and still be exported.
+
+option(ALPENGLOW_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
+option(ALPENGLOW_BUILD_SAMPLES "Build the program alpenglow (needs io)" ${PROJECT_IS_TOP_LEVEL})
+option(ALPENGLOW_BUILD_IO "Build Alpenglow::io (needs OpenImageIO and nlohmann-json)"
+       ${PROJECT_IS_TOP_LEVEL})
+option(ALPENGLOW_INSTALL "Add install rules" ${PROJECT_IS_TOP_LEVEL})
+option(ALPENGLOW_WARNINGS_AS_ERRORS "Stop at the first warning" ${PROJECT_IS_TOP_LEVEL})
+
+if(PROJECT_IS_TOP_LEVEL)
+  get_property(multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
+  if(NOT multi_config AND NOT CMAKE_BUILD_TYPE)
+    set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+  endif()
+  set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+  set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+  find_program(CCACHE_PROGRAM ccache)
+  mark_as_advanced(CCACHE_PROGRAM)
+  if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+  endif()
+  # A name of its own, so that tests built beside an installed copy never pick that one up.
+  enable_testing()
+endif()
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+add_library(alpenglow_options INTERFACE)
+target_compile_features(alpenglow_options INTERFACE $<BUILD_INTERFACE:cxx_std_20>)
+target_include_directories(alpenglow_options INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/atmosphere/include>
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/engine/headless/include>)
+set(gnu_like $<OR:$<CXX_COMPILER_ID:GNU>,$<CXX_COMPILER_ID:Clang>,$<CXX_COMPILER_ID:AppleClang>>)
+target_compile_options(alpenglow_options INTERFACE
+  $<BUILD_INTERFACE:$<${gnu_like}:-Wall;-Wextra;-Wconversion;-Wshadow>>
+  $<BUILD_INTERFACE:$<${gnu_like}:-fPIC;-fvisibility=hidden;-fvisibility-inlines-hidden>>
+  $<BUILD_INTERFACE:$<$<AND:${gnu_like},$<BOOL:${ALPENGLOW_WARNINGS_AS_ERRORS}>>:-Werror>>)
+
+# The headers a host includes, as a target: what our own libraries hand on to their users.
+add_library(alpenglow_headers INTERFACE)
+add_library(Alpenglow::headers ALIAS alpenglow_headers)
+set_target_properties(alpenglow_headers PROPERTIES EXPORT_NAME headers)
+target_compile_features(alpenglow_headers INTERFACE cxx_std_20)
+target_include_directories(alpenglow_headers INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/atmosphere/include>
+  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

@@ -1,0 +1,50 @@
+# alpenglow_add_test(NAME name SOURCES file... [LIBS target...] [LABELS label...] [TIMEOUT seconds]
+#                    [PROCESS] [POISON])
+#
+# A GoogleTest program build/bin/<name>, with main() from GTest::gtest_main unless it has its own.
+# Each of its tests becomes a CTest of its own, found when CTest runs; with PROCESS the program is
+# one CTest instead (for tests that share a costly fixture). Vulkan means lavapipe, wherever the
+# tests run. POISON runs it a second time, named poison.*, with new device memory filled with 0x80.
+
+set(ALPENGLOW_TEST_DRIVER "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json" CACHE FILEPATH
+    "Vulkan driver manifest that the tests use")
+
+if(ALPENGLOW_BUILD_TESTS)
+  include(GoogleTest)
+endif()
+
+function(alpenglow_add_test)
+  cmake_parse_arguments(PARSE_ARGV 0 arg "PROCESS;POISON" "NAME;TIMEOUT" "SOURCES;LIBS;LABELS")
+  if(arg_UNPARSED_ARGUMENTS OR NOT arg_NAME OR NOT arg_SOURCES)
+    message(FATAL_ERROR "alpenglow_add_test needs NAME and SOURCES; unknown arguments: "
+                        "\"${arg_UNPARSED_ARGUMENTS}\"")
+  endif()
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 300)
+  endif()
+  add_executable(${arg_NAME} ${arg_SOURCES})
+  target_link_libraries(${arg_NAME} PRIVATE alpenglow_options ${arg_LIBS} GTest::gtest
+                                            GTest::gtest_main)
+  alpenglow_register_test("" "VK_DRIVER_FILES=${ALPENGLOW_TEST_DRIVER}")
+  if(arg_POISON)
+    alpenglow_register_test("poison."
+      "VK_DRIVER_FILES=${ALPENGLOW_TEST_DRIVER};LVP_POISON_MEMORY=1")
+  endif()
+endfunction()
+
+# Registers target ${arg_NAME} of the caller once, under a prefix and with an environment.
+macro(alpenglow_register_test prefix environment)
+  if(arg_PROCESS)
+    add_test(NAME ${prefix}${arg_NAME} COMMAND ${arg_NAME})
+    set_tests_properties(${prefix}${arg_NAME} PROPERTIES ENVIRONMENT "${environment}"
+                         LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
+  else()
+    # A list in PROPERTIES must survive being written into CTest's script.
+    string(REPLACE ";" "\\;" escaped_environment "${environment}")
+    string(REPLACE ";" "\\;" escaped_labels "${arg_LABELS}")
+    gtest_discover_tests(${arg_NAME} TEST_PREFIX "${prefix}${arg_NAME}." DISCOVERY_MODE PRE_TEST
+                         DISCOVERY_TIMEOUT 60
+                         PROPERTIES ENVIRONMENT "${escaped_environment}"
+                                    LABELS "${escaped_labels}" TIMEOUT ${arg_TIMEOUT})
+  endif()
+endmacro()
