@@ -25,26 +25,31 @@ function(alpenglow_add_test)
   add_executable(${arg_NAME} ${arg_SOURCES})
   target_link_libraries(${arg_NAME} PRIVATE alpenglow_options ${arg_LIBS} GTest::gtest
                                             GTest::gtest_main)
-  alpenglow_register_test("" "VK_DRIVER_FILES=${ALPENGLOW_TEST_DRIVER}")
+  set(environment "VK_DRIVER_FILES=${ALPENGLOW_TEST_DRIVER}")
+  alpenglow_register_test("" "${environment}")
   if(arg_POISON)
-    alpenglow_register_test("poison."
-      "VK_DRIVER_FILES=${ALPENGLOW_TEST_DRIVER};LVP_POISON_MEMORY=1")
+    alpenglow_register_test("poison." "${environment};LVP_POISON_MEMORY=1")
   endif()
 endfunction()
 
 # Registers target ${arg_NAME} of the caller once, under a prefix and with an environment.
-macro(alpenglow_register_test prefix environment)
+function(alpenglow_register_test prefix environment)
   if(arg_PROCESS)
     add_test(NAME ${prefix}${arg_NAME} COMMAND ${arg_NAME})
     set_tests_properties(${prefix}${arg_NAME} PROPERTIES ENVIRONMENT "${environment}"
                          LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
   else()
-    # A list in PROPERTIES must survive being written into CTest's script.
-    string(REPLACE ";" "\\;" escaped_environment "${environment}")
-    string(REPLACE ";" "\\;" escaped_labels "${arg_LABELS}")
-    gtest_discover_tests(${arg_NAME} TEST_PREFIX "${prefix}${arg_NAME}." DISCOVERY_MODE PRE_TEST
-                         DISCOVERY_TIMEOUT 60
-                         PROPERTIES ENVIRONMENT "${escaped_environment}"
-                                    LABELS "${escaped_labels}" TIMEOUT ${arg_TIMEOUT})
+    # gtest_discover_tests can't hand on a property that is a list, so a file that CTest reads
+    # after the discovery sets them.
+    set(list_name "${arg_NAME}_${prefix}tests")
+    gtest_discover_tests(${arg_NAME} TEST_PREFIX "${prefix}${arg_NAME}." TEST_LIST "${list_name}"
+                         DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60)
+    set(script "${CMAKE_CURRENT_BINARY_DIR}/${list_name}.cmake")
+    file(WRITE "${script}" "foreach(name IN LISTS ${list_name})
+  set_tests_properties(\"\${name}\" PROPERTIES ENVIRONMENT \"${environment}\"
+                       LABELS \"${arg_LABELS}\" TIMEOUT ${arg_TIMEOUT})
+endforeach()
+")
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES "${script}")
   endif()
-endmacro()
+endfunction()
