@@ -1,0 +1,149 @@
+// What every room of the library holds of the host's device: the function table, limits, how to
+// report an error, counters, and the queue of deferred destruction.
+#pragma once
+
+#include <alpenglow/context.h>
+
+#include <atomic>
+#include <mutex>
+#include <type_traits>
+#include <vector>
+
+#include "engine/deletion_queue.h"
+#include "engine/dispatch.h"
+
+#if defined(__GNUC__)
+#define ALPENGLOW_PRINTF(text, first) __attribute__((__format__(__printf__, text, first)))
+#else
+#define ALPENGLOW_PRINTF(text, first)
+#endif
+
+namespace alpenglow::engine {
+
+/// A Vulkan handle as the 64-bit number that debug names and the deletion queue use.
+template <class Handle>
+uint64_t handleNumber(Handle handle) {
+  if constexpr (std::is_pointer_v<Handle>) {
+    return static_cast<uint64_t>(reinterpret_cast<uintptr_t>(handle));
+  } else {
+    return handle;
+  }
+}
+
+/// And back.
+template <class Handle>
+Handle handleFrom(uint64_t number) {
+  if constexpr (std::is_pointer_v<Handle>) {
+    return reinterpret_cast<Handle>(static_cast<uintptr_t>(number));
+  } else {
+    return number;
+  }
+}
+
+/// The figures of ResourceReport. The engine counts all but dispatches and draws, which the
+/// recording rooms add themselves. Thread-safe.
+struct Counters {
+  std::atomic<uint64_t> pipelines{0};
+  std::atomic<uint64_t> shaderVariants{0};
+  std::atomic<uint64_t> images{0};
+  std::atomic<uint64_t> buffers{0};
+  std::atomic<uint64_t> bytes{0};
+  std::atomic<uint64_t> peakBytes{0};
+  std::atomic<uint64_t> dispatches{0};
+  std::atomic<uint64_t> draws{0};
+
+  void addBytes(uint64_t count);  ///< Raises peakBytes too.
+  void removeBytes(uint64_t count) { bytes -= count; }
+  ResourceReport report() const;
+};
+
+/// The host's device as we see it. Everything here is thread-safe. Made on the heap with the host's
+/// allocation callbacks left aside: those serve Vulkan objects only.
+class Device {
+ public:
+  /// Checks the description and fills the table. On failure `*out` is null and the description's
+  /// diagnostic has a sentence: InvalidArgument for a null handle or an impossible count,
+  /// Unsupported for a device below Vulkan 1.3, without synchronization2 or without a function that
+  /// we need, OutOfHostMemory.
+  static Status create(const ContextDesc& desc, Device** out);
+  /// The same with a table that is already filled; for tests.
+  static Status create(const ContextDesc& desc, const Dispatch& table, Device** out);
+  /// Destroys what still waits, whatever its frame, and reports images, buffers and bytes that
+  /// nobody released as a Warning. Null is ignored.
+  static void destroy(Device* device);
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+
+  const Dispatch& vk() const { return vk_; }
+  VkInstance instance() const { return desc_.instance; }
+  VkPhysicalDevice physicalDevice() const { return desc_.physicalDevice; }
+  VkDevice handle() const { return desc_.device; }
+  const VkAllocationCallbacks* allocator() const { return desc_.allocator; }
+  VkPipelineCache pipelineCache() const { return desc_.pipelineCache; }
+  const Requirements& enabled() const { return desc_.enabled; }
+  const MemoryHooks* memoryHooks() const { return hooks_.allocate != nullptr ? &hooks_ : nullptr; }
+  /// The families that share our images and buffers; more than one means concurrent.
+  const std::vector<uint32_t>& queueFamilies() const { return queueFamilies_; }
+  VkSharingMode sharingMode() const {
+    return queueFamilies_.size() > 1 ? VK_SHARING_MODE_CONCURRENT : VK_SHARING_MODE_EXCLUSIVE;
+  }
+  const VkPhysicalDeviceLimits& limits() const { return properties_.limits; }
+  const VkPhysicalDeviceProperties& properties() const { return properties_; }
+  const VkPhysicalDeviceMemoryProperties& memoryProperties() const { return memoryProperties_; }
+  VkFormatProperties formatProperties(VkFormat format) const;
+
+  /// Sends one sentence (printf style, cut at 1023 bytes) as an Error to the diagnostic callback
+  /// and returns `status`, so that `return device.fail(...)` reads naturally.
+  Status fail(Status status, VkResult result, const char* format, ...) const ALPENGLOW_PRINTF(4, 5);
+  /// Maps a VkResult: Ok for VK_SUCCESS and other non-negative results; else reports
+  /// `<what> returned VK_ERROR_... (-2).`, where `what` is such as
+  /// `vkCreateImage for image "scattering"`.
+  Status failVk(VkResult result, const char* what) const;
+  /// The same with `what` made of a call and the name of the thing it was for.
+  Status failVk(VkResult result, const char* call, const char* kind, const char* name) const;
+  /// A Warning or Info; the status is Ok.
+  void notice(Severity severity, const char* format, ...) const ALPENGLOW_PRINTF(3, 4);
+
+  /// VK_EXT_debug_utils names and labels; nothing happens when the host didn't enable it.
+  void setName(VkObjectType type, uint64_t handle, const char* name) const;
+  void beginLabel(VkCommandBuffer commandBuffer, const char* name) const;
+  void endLabel(VkCommandBuffer commandBuffer) const;
+
+  /// Destroys one object now and keeps the counters right. Knows images, image views, buffers,
+  /// pipelines, pipeline layouts, shader modules, samplers, descriptor pools and set layouts. A
+  /// null handle is ignored.
+  void destroyObject(VkObjectType type, uint64_t handle);
+  template <class Handle>
+  void destroyObject(VkObjectType type, Handle handle) {
+    destroyObject(type, handleNumber(handle));
+  }
+
+  DeletionQueue& deletions() { return deletions_; }
+  Counters& counters() { return counters_; }
+  const Counters& counters() const { return counters_; }
+  /// Counts a pipeline, and its shader variant when no pipeline had this key before.
+  void countPipeline(uint64_t variantKey);
+
+ private:
+  Device(const ContextDesc& desc, const Dispatch& table);
+  ~Device() = default;
+  void report(Severity severity, Status status, VkResult result, const char* message) const;
+
+  ContextDesc desc_;
+  Dispatch vk_;
+  MemoryHooks hooks_;
+  std::vector<uint32_t> queueFamilies_;
+  VkPhysicalDeviceProperties properties_ = {};
+  VkPhysicalDeviceMemoryProperties memoryProperties_ = {};
+  Counters counters_;
+  DeletionQueue deletions_;
+  std::mutex variantsMutex_;
+  std::vector<uint64_t> variants_;  ///< Sorted keys.
+};
+
+/// "VK_ERROR_OUT_OF_DEVICE_MEMORY"; "VkResult" for a value that we don't know.
+const char* resultName(VkResult result);
+/// The status that stands for a result: Ok for all non-negative ones.
+Status statusOf(VkResult result);
+
+}  // namespace alpenglow::engine

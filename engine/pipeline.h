@@ -1,0 +1,70 @@
+// Compute and graphics pipelines with specialization constants.
+#pragma once
+
+#include "engine/device.h"
+
+namespace alpenglow::engine {
+
+/// A 32-bit specialization constant; floats and bools by their bit pattern.
+struct SpecConstant {
+  uint32_t id = 0;
+  uint32_t value = 0;
+};
+
+SpecConstant specUint(uint32_t id, uint32_t value);
+SpecConstant specInt(uint32_t id, int32_t value);
+SpecConstant specBool(uint32_t id, bool value);
+SpecConstant specFloat(uint32_t id, float value);
+
+/// SPIR-V with the entry point `main`; not owned.
+struct Shader {
+  const uint32_t* code = nullptr;
+  size_t bytes = 0;
+  const char* name = "";
+};
+
+inline constexpr uint32_t kMaxSpecConstants = 32;
+
+Status createPipelineLayout(Device& device, const VkDescriptorSetLayout* setLayouts,
+                            uint32_t setLayoutCount, const VkPushConstantRange* ranges,
+                            uint32_t rangeCount, const char* name, VkPipelineLayout* out);
+
+struct ComputePipelineDesc {
+  Shader shader;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  const SpecConstant* constants = nullptr;  ///< At most kMaxSpecConstants.
+  uint32_t constantCount = 0;
+};
+
+/// InvalidArgument when the code is not SPIR-V (empty, not whole words, wrong magic number) or
+/// there are too many constants; else what vkCreateShaderModule and vkCreateComputePipelines
+/// answer. Named after its shader. On failure `*out` is null. May be called from several threads.
+Status createComputePipeline(Device& device, const ComputePipelineDesc& desc, VkPipeline* out);
+
+/// A pipeline for a triangle that covers the viewport: no vertex input, triangle list, no culling,
+/// no blending, no depth write, viewport and scissor dynamic.
+struct GraphicsPipelineDesc {
+  Shader vertex;
+  Shader geometry;  ///< Optional: no code, no stage.
+  Shader fragment;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  const SpecConstant* constants = nullptr;  ///< The same list for every stage.
+  uint32_t constantCount = 0;
+  VkFormat colorFormat = VK_FORMAT_UNDEFINED;
+  VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< UNDEFINED: no depth attachment.
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+  uint32_t viewMask = 0;                     ///< Of dynamic rendering.
+  VkRenderPass renderPass = VK_NULL_HANDLE;  ///< Null: dynamic rendering with the formats above.
+  uint32_t subpass = 0;
+  bool depthTest = false;
+  VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
+};
+
+/// As createComputePipeline; also Unsupported when renderPass is null and dynamicRendering is not
+/// enabled.
+Status createGraphicsPipeline(Device& device, const GraphicsPipelineDesc& desc, VkPipeline* out);
+
+/// 64-bit key of code and constants, equal for equal ones; what shaderVariants counts.
+uint64_t variantKey(const Shader& shader, const SpecConstant* constants, uint32_t constantCount);
+
+}  // namespace alpenglow::engine
