@@ -1,0 +1,36 @@
+// What the atmosphere is made of at an altitude h above the ground sphere (section 2 of the paper).
+
+// Laid out as std140 has it, so that the C++ float version is the uniform block's bytes.
+struct Medium {
+  ALPENGLOW_STD140(Spectrum) rayleighScattering;  // beta_R at h = 0, 1/m
+  Real rayleighScaleHeight;                       // H_R, m
+  ALPENGLOW_STD140(Spectrum) mieScattering;       // beta_M at h = 0, 1/m
+  Real mieScaleHeight;                            // H_M, m
+  ALPENGLOW_STD140(Spectrum) mieExtinction;       // 1/m
+  Real mieAsymmetry;                              // g
+  ALPENGLOW_STD140(Spectrum) absorptionExtinction;  // at the tent's center, 1/m
+  Real absorptionCenter;                          // m
+  ALPENGLOW_STD140(Spectrum) groundAlbedo;
+  Real absorptionHalfWidth;   // m
+  Real bottomRadius;          // Rg, m
+  Real thickness;             // Rt - Rg, m
+  Real topRho;                // H = sqrt(Rt^2 - Rg^2), m
+  Real transmittanceMuMin;    // least mu of the transmittance table
+  Real sunSinRadius;          // sine of the sun's angular radius, 0 for a parallel beam
+  Real unused0, unused1, unused2;
+};
+
+ALPENGLOW_FN Real rayleighDensity(IN(Medium) m, Real h) { return exp(-h / m.rayleighScaleHeight); }
+
+ALPENGLOW_FN Real mieDensity(IN(Medium) m, Real h) { return exp(-h / m.mieScaleHeight); }
+
+ALPENGLOW_FN Real absorptionDensity(IN(Medium) m, Real h) {
+  return max(REAL(0.0), REAL(1.0) - abs(h - m.absorptionCenter) / m.absorptionHalfWidth);
+}
+
+// Extinction coefficient of everything at h, 1/m. The one place that knows the profiles: optical
+// depths integrate it along rays (optical_depth.glsl).
+ALPENGLOW_FN Spectrum extinction(IN(Medium) m, Real h) {
+  return m.rayleighScattering * rayleighDensity(m, h) + m.mieExtinction * mieDensity(m, h) +
+         m.absorptionExtinction * absorptionDensity(m, h);
+}

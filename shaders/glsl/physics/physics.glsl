@@ -1,0 +1,22 @@
+// All of the physics that reads no table, in the order it needs. Include this, or in C++
+// atmosphere/model/physics_cpp.h.
+#ifndef ALPENGLOW_PHYSICS
+#ifndef __cplusplus
+#define ALPENGLOW_PHYSICS
+#endif
+
+#include "types.glsl"
+
+#include "medium.glsl"
+
+#include "geometry.glsl"
+
+#include "optical_depth.glsl"
+
+#include "phase.glsl"
+
+#include "mapping.glsl"
+
+#include "tone_map.glsl"
+
+#endif
