@@ -1,4 +1,4 @@
-#include "model/physics_cpp.h"
+#include "atmosphere/model/physics_cpp.h"
 
 #include <algorithm>
 

@@ -24,7 +24,7 @@ using Real3 = glm::vec3;
 using Real4 = glm::vec4;
 using Spectrum = glm::vec3;
 #define REAL(literal) static_cast<float>(literal)
-#include "physics/physics.glsl"
+#include "shaders/glsl/physics/physics.glsl"
 #undef REAL
 }  // namespace alpenglow::physics_f32
 
@@ -36,7 +36,7 @@ using Real3 = glm::dvec3;
 using Real4 = glm::dvec4;
 using Spectrum = glm::dvec3;
 #define REAL(literal) static_cast<double>(literal)
-#include "physics/physics.glsl"
+#include "shaders/glsl/physics/physics.glsl"
 #undef REAL
 }  // namespace alpenglow::physics_f64
 
