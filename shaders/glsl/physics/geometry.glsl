@@ -29,12 +29,12 @@ ALPENGLOW_FN bool rayHitsGround(IN(Medium) m, Real h, Real mu) {
 }
 
 // Distance to the ground of a ray that hits it: -r mu - sqrt(Delta), Delta = r^2 mu^2 - rho^2,
-// written so that it does not cancel.
+// written so that it does not cancel. Finite, but meaningless, for other rays.
 ALPENGLOW_FN Real distanceToGround(IN(Medium) m, Real h, Real mu) {
   Real rMu = radiusAt(m, h) * mu;
   Real rho2 = rhoSquared(m, h);
   Real delta = max(rMu * rMu - rho2, REAL(0.0));
-  return rho2 / (sqrt(delta) - rMu);
+  return rho2 / max(sqrt(delta) - rMu, REAL(1e-6));
 }
 
 // Distance to the top from a point inside, looking through the ground where it is in the way:
@@ -88,7 +88,7 @@ struct Ray {
   Real mu;
   Real muS;
   Real nu;
-  Real length;       // to the ground or the top
+  Real extent;       // distance to the ground or the top
   bool hitsGround;
   bool inAtmosphere;  // false: the ray misses the atmosphere, and nothing else counts
 };
@@ -109,6 +109,6 @@ ALPENGLOW_FN Ray makeRay(IN(Medium) m, Real h, Real mu, Real sine, Real muS, Rea
   ray.nu = nu;
   ray.inAtmosphere = inside || (mu < REAL(0.0) && b < rt);
   ray.hitsGround = inside ? rayHitsGround(m, h, mu) : (mu < REAL(0.0) && b < m.bottomRadius);
-  ray.length = ray.hitsGround ? distanceToGround(m, ray.h, ray.mu) : distanceToTop(m, ray.h, ray.mu);
+  ray.extent = ray.hitsGround ? distanceToGround(m, ray.h, ray.mu) : distanceToTop(m, ray.h, ray.mu);
   return ray;
 }

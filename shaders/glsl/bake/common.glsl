@@ -1,0 +1,76 @@
+// What every bake shader shares: bindings, table reads and the tile it works on. A tile is a range of
+// rows: row = y for a 2D table, y + height * z for a 3D one; an invocation makes one texel.
+// ALPENGLOW_STORAGE is the format qualifier of the tables (rgba16f or rgba32f).
+
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(constant_id = 0) const bool kFirstOrder = false;
+layout(constant_id = 1) const bool kMiePacked = false;
+#define ALPENGLOW_FIRST_ORDER kFirstOrder
+#define ALPENGLOW_MIE_PACKED kMiePacked
+
+#define ALPENGLOW_TABLE_READS
+#include "physics/physics.glsl"
+
+layout(set = 0, binding = 1) uniform sampler2D opticalDepthTable;
+layout(set = 0, binding = 2) uniform sampler2D deltaIrradianceTable;
+layout(set = 0, binding = 3) uniform sampler3D deltaScatteringTable;
+layout(set = 0, binding = 4) uniform sampler3D deltaMieTable;
+layout(set = 0, binding = 5) uniform sampler3D deltaSourceTable;
+
+Spectrum readOpticalDepth(vec2 uv) { return textureLod(opticalDepthTable, uv, 0.0).rgb; }
+Spectrum readDeltaIrradiance(vec2 uv) { return textureLod(deltaIrradianceTable, uv, 0.0).rgb; }
+Spectrum readDeltaRadiance(vec3 uvw) { return textureLod(deltaScatteringTable, uvw, 0.0).rgb; }
+Spectrum readDeltaMie(vec3 uvw) { return textureLod(deltaMieTable, uvw, 0.0).rgb; }
+Spectrum readDeltaSource(vec3 uvw) { return textureLod(deltaSourceTable, uvw, 0.0).rgb; }
+
+#include "physics/lookup.glsl"
+
+layout(set = 0, binding = 0, std140) uniform Atmosphere {
+  Medium medium;
+  TableShape shape;
+};
+
+layout(push_constant) uniform Tile {
+  uint firstRow;
+  uint endRow;
+  uint width;
+  uint height;
+};
+
+#include "physics/standard.glsl"
+
+// Texel of this invocation, or z = -1 outside the tile.
+ivec3 tileTexel() {
+  uint row = firstRow + gl_GlobalInvocationID.y;
+  bool outside = row >= endRow || gl_GlobalInvocationID.x >= width;
+  return outside ? ivec3(-1) : ivec3(gl_GlobalInvocationID.x, row % height, row / height);
+}
+
+// The ray that a texel of S stands for. The horizon is decided by the half of the table, never again.
+struct ScatteringTexel {
+  float h;
+  float mu;
+  float muS;
+  float nu;
+  bool hitsGround;
+};
+
+ScatteringTexel scatteringTexel(ivec3 texel) {
+  ScatteringTexel s;
+  int sizeMuS = int(shape.scatteringMuS);
+  s.h = scatteringH(medium, unitFromTexel(float(texel.z), shape.scatteringR));
+  s.hitsGround = texel.y < int(shape.scatteringMu) / 2;
+  float uMu = scatteringUnitMuFromTexel(float(texel.y), s.hitsGround, shape.scatteringMu);
+  s.mu = scatteringMu(medium, s.h, uMu, s.hitsGround);
+  s.muS = scatteringMuS(unitFromTexel(float(texel.x % sizeMuS), shape.scatteringMuS));
+  float uNu = unitFromTexel(float(texel.x / sizeMuS), shape.scatteringNu);
+  s.nu = clampNu(s.mu, s.muS, 2.0 * uNu - 1.0);
+  return s;
+}
+
+// h and mu_s of a texel of E.
+vec2 irradianceTexel(ivec3 texel) {
+  return irradianceHMuS(medium, vec2(unitFromTexel(float(texel.x), shape.irradianceMuS),
+                                     unitFromTexel(float(texel.y), shape.irradianceR)));
+}

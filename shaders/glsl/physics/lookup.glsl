@@ -1,0 +1,108 @@
+// Reading the tables. The includer defines, before it includes this:
+//   Spectrum readOpticalDepth(Real2 uv), Spectrum readIrradiance(Real2 uv),
+//   Real4 readScattering(Real3 uvw), Spectrum readSingleMie(Real3 uvw)   hardware-filtered fetches
+//   TableShape shape                                                     sizes of the tables
+// Everything is per unit solar irradiance.
+
+// Number of texels in each dimension, and how single Mie scattering is stored.
+struct TableShape {
+  Real transmittanceMu, transmittanceR, irradianceMuS, irradianceR;
+  Real scatteringR, scatteringMu, scatteringMuS, scatteringNu;
+};
+
+ALPENGLOW_FN Real2 opticalDepthCoordinate(IN(Medium) m, IN(TableShape) shape, Real h, Real mu) {
+  Real2 u = transmittanceUnit(m, h, mu);
+  return Real2(insetCoordinate(u[0], shape.transmittanceMu),
+               insetCoordinate(u[1], shape.transmittanceR));
+}
+
+ALPENGLOW_FN Real2 irradianceCoordinate(IN(Medium) m, IN(TableShape) shape, Real h, Real muS) {
+  Real2 u = irradianceUnit(m, h, muS);
+  return Real2(insetCoordinate(u[0], shape.irradianceMuS),
+               insetCoordinate(u[1], shape.irradianceR));
+}
+
+// S is four-dimensional: a 3D texture holds its nu slices side by side along mu_s. This is the texture
+// coordinate in the slice of nu = -1; nuSlice has the way from there.
+ALPENGLOW_FN Real3 scatteringCoordinate(IN(Medium) m, IN(TableShape) shape, Real h, Real mu,
+                                        Real muS, bool hitsGround) {
+  Real uMuS = insetCoordinate(scatteringUnitMuS(muS), shape.scatteringMuS);
+  Real uMu = scatteringUnitMu(m, h, mu, hitsGround);
+  return Real3(uMuS / shape.scatteringNu,
+               scatteringCoordinateMu(uMu, hitsGround, shape.scatteringMu),
+               insetCoordinate(scatteringUnitR(m, h), shape.scatteringR));
+}
+
+// Offset in x to the slice below nu, and the share of the slice above it, whose offset is 1 / nu more.
+ALPENGLOW_FN Real2 nuSlice(IN(TableShape) shape, Real nu) {
+  Real slice = scatteringUnitNu(nu) * (shape.scatteringNu - REAL(1.0));
+  Real lower = min(floor(slice), shape.scatteringNu - REAL(2.0));
+  return Real2(lower / shape.scatteringNu, slice - lower);
+}
+
+#ifdef ALPENGLOW_TABLE_READS
+
+// Equation 5 from the table, towards the top, whatever is in the way.
+ALPENGLOW_FN Spectrum transmittanceToTop(IN(Medium) m, IN(TableShape) shape, Real h, Real mu) {
+  return exp(-readOpticalDepth(opticalDepthCoordinate(m, shape, h, mu)));
+}
+
+// Equation 9 without Lsun: sunlight that arrives at h.
+ALPENGLOW_FN Spectrum transmittanceToSun(IN(Medium) m, IN(TableShape) shape, Real h, Real muS) {
+  return transmittanceToTop(m, shape, h, muS) * sunVisibility(m, h, muS);
+}
+
+#ifdef ALPENGLOW_FINAL_READS
+
+// E of the sky, equation 15, on a horizontal surface.
+ALPENGLOW_FN Spectrum skyIrradiance(IN(Medium) m, IN(TableShape) shape, Real h, Real muS) {
+  return readIrradiance(irradianceCoordinate(m, shape, h, muS));
+}
+
+// The rule of section 4 of the paper for single Mie scattering of which only the first channel is
+// stored: C_M ~ C_* (C_M,r / C_*,r) (beta_R,r / beta_M,r) (beta_M / beta_R).
+ALPENGLOW_FN Spectrum unpackSingleMie(IN(Medium) m, Real4 packed_) {
+  Spectrum rayleigh = Spectrum(packed_[0], packed_[1], packed_[2]);
+  Spectrum ratio = m.mieScattering / max(m.rayleighScattering, SPECTRUM(REAL(1e-30)));
+  Spectrum c = rayleigh * (packed_[3] / max(packed_[0], REAL(1e-30)));
+  return packed_[0] > REAL(0.0) ? c * (ratio / max(ratio[0], REAL(1e-30)))
+                                : SPECTRUM(REAL(0.0));
+}
+
+// S[L] of a whole ray, equation 11: C_* P_R + C_M P_M.
+ALPENGLOW_FN Spectrum scatteringOfRay(IN(Medium) m, IN(TableShape) shape, Real h, Real mu, Real muS,
+                                      Real nu, bool hitsGround) {
+  Real2 slice = nuSlice(shape, nu);
+  Real3 lower = scatteringCoordinate(m, shape, h, mu, muS, hitsGround) +
+                Real3(slice[0], REAL(0.0), REAL(0.0));
+  Real3 upper = lower + Real3(REAL(1.0) / shape.scatteringNu, REAL(0.0), REAL(0.0));
+  Real4 c = mix(readScattering(lower), readScattering(upper), slice[1]);
+  Spectrum mie = ALPENGLOW_MIE_PACKED
+                     ? unpackSingleMie(m, c)
+                     : mix(readSingleMie(lower), readSingleMie(upper), slice[1]);
+  return Spectrum(c[0], c[1], c[2]) * rayleighPhase(nu) + mie * miePhase(m.mieAsymmetry, nu);
+}
+
+// S|x - T(x, xs) S|xs, equation 13: light scattered in the first d metres of a ray. One decision about
+// the horizon serves both ends. Where d reaches the end of the ray, S|xs is zero.
+ALPENGLOW_FN Spectrum scatteringOfSegment(IN(Medium) m, IN(TableShape) shape, IN(Ray) ray, Real d,
+                                          Spectrum transmittance) {
+  Spectrum all = scatteringOfRay(m, shape, ray.h, ray.mu, ray.muS, ray.nu, ray.hitsGround);
+  Real hs = min(altitudeAt(m, ray.h, ray.mu, d), m.thickness);
+  Spectrum rest =
+      scatteringOfRay(m, shape, hs, muAt(m, ray.h, ray.mu, d, hs),
+                      muSAt(m, ray.h, ray.muS, ray.nu, d, hs), ray.nu, ray.hitsGround);
+  Spectrum part = max(all - transmittance * rest, SPECTRUM(REAL(0.0)));
+  return d < ray.extent ? part : all;
+}
+
+// R[L], equation 10: light that a Lambertian ground sends up where the sun is at mu_s; equation 14
+// with n = n-bar.
+ALPENGLOW_FN Spectrum groundRadiance(IN(Medium) m, IN(TableShape) shape, Spectrum albedo, Real muS) {
+  Spectrum direct =
+      transmittanceToSun(m, shape, REAL(0.0), muS) * max(muS, REAL(0.0));
+  return albedo / REAL(ALPENGLOW_PI) * (direct + skyIrradiance(m, shape, REAL(0.0), muS));
+}
+
+#endif  // ALPENGLOW_FINAL_READS
+#endif  // ALPENGLOW_TABLE_READS

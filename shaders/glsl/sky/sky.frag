@@ -1,0 +1,87 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Sky, sun disc, ground sphere and the air in front of it: equation 16 without shadows, from the
+// ground to outer space. What the camera can't see is removed by the constants below.
+
+layout(constant_id = 0) const bool kMiePacked = false;
+layout(constant_id = 1) const bool kFisheye = false;
+layout(constant_id = 2) const bool kGround = true;  // some pixels may see the ground
+layout(constant_id = 3) const bool kSunDisc = true;
+layout(constant_id = 4) const bool kAlbedoMap = false;
+
+#define ALPENGLOW_MIE_PACKED kMiePacked
+#include "alpenglow/atmosphere.glsl"
+
+layout(set = 1, binding = 0) uniform sampler2D albedoMap;
+
+// Directions in the planet's frame; mirrored by SkyConstants in atmosphere/sky/sky_pass.h.
+layout(push_constant) uniform SkyConstants {
+  vec4 upAltitude;        // the camera's vertical; altitude in metres
+  vec4 forwardPixel;      // angle of a pixel at the centre, radians
+  vec4 rightHalfAngle;    // scaled by tan(fov / 2) and aspect; fisheye: unit, half the circle's angle
+  vec4 downMapTexel;      // scaled by tan(fov / 2), down the image; metres of a map texel
+  vec4 sunDiscChord;      // towards the sun; 2 sin(radius / 2) of its disc
+  vec4 irradianceDisc;    // solar irradiance times radianceScale; 1 / solid angle of the disc
+  vec4 circleScale;       // xy: ndc to units of the fisheye's circle
+};
+
+layout(location = 0) in vec2 ndc;
+layout(location = 0) out vec4 radiance;
+
+vec3 viewDirection(out bool visible) {
+  if (kFisheye) {
+    vec2 p = ndc * circleScale.xy;
+    float radius = length(p);
+    float theta = radius * rightHalfAngle.w;
+    visible = radius <= 1.0;
+    vec2 across = p * (sin(theta) / max(radius, 1e-9));
+    return normalize(forwardPixel.xyz * cos(theta) + rightHalfAngle.xyz * across.x +
+                     downMapTexel.xyz * across.y);
+  }
+  visible = true;
+  return normalize(forwardPixel.xyz + ndc.x * rightHalfAngle.xyz + ndc.y * downMapTexel.xyz);
+}
+
+// Albedo of the map where the ray meets the ground, at the level whose texels are as wide as the
+// pixel's footprint there.
+Spectrum mapAlbedo(Ray ray, vec3 view, float muGround) {
+  vec3 point = upAltitude.xyz * (alpenglowMedium.bottomRadius + upAltitude.w) +
+               view * (ray.start + ray.extent);
+  vec3 n = normalize(point);
+  vec2 uv = vec2(atan(n.y, n.x) * (0.5 / ALPENGLOW_PI) + 0.5,
+                 acos(clamp(n.z, -1.0, 1.0)) / ALPENGLOW_PI);
+  float footprint = (ray.start + ray.extent) * forwardPixel.w * inversesqrt(max(muGround, 0.05));
+  return textureLod(albedoMap, uv, max(log2(footprint / downMapTexel.w), 0.0)).rgb;
+}
+
+// The ground's own light, dimmed on its way to the camera: T R[L], equations 10 and 14.
+Spectrum groundTerm(Ray ray, vec3 view) {
+  float d = ray.hitsGround ? ray.extent : 0.0;
+  Spectrum depth = opticalDepthOfPiece(alpenglowMedium, ray.h, ray.mu, 0.0, d,
+                                       ray.hitsGround ? 12 : 0);
+  float muGround = -muAt(alpenglowMedium, ray.h, ray.mu, d, 0.0);
+  float muSGround = muSAt(alpenglowMedium, ray.h, ray.muS, ray.nu, d, 0.0);
+  Spectrum albedo = kAlbedoMap ? mapAlbedo(ray, view, muGround) : alpenglowMedium.groundAlbedo;
+  Spectrum light = groundRadiance(alpenglowMedium, alpenglowShape, albedo, muSGround) * exp(-depth);
+  return ray.hitsGround ? light : SPECTRUM(0.0);
+}
+
+// The sun's disc: T times irradiance over its solid angle, its edge one pixel wide. The angle comes
+// from the chord between the directions: their dot product has no digits left at 0.27 degrees.
+Spectrum discTerm(Ray ray, vec3 view) {
+  float chord = length(view - sunDiscChord.xyz);
+  float coverage = clamp((sunDiscChord.w - chord) / forwardPixel.w + 0.5, 0.0, 1.0);
+  return alpenglowTransmittanceToSpace(ray) * (coverage * irradianceDisc.w);
+}
+
+void main() {
+  bool visible;
+  vec3 view = viewDirection(visible);
+  Ray ray = alpenglowRay(upAltitude.xyz, upAltitude.w, view, sunDiscChord.xyz);
+  if (!kGround) ray.hitsGround = false;
+  Spectrum light = alpenglowSkyRadiance(ray);
+  if (kGround) light += groundTerm(ray, view);
+  if (kSunDisc) light += discTerm(ray, view);
+  light = visible ? light * irradianceDisc.rgb : SPECTRUM(0.0);
+  radiance = vec4(light, 1.0);
+}
