@@ -1,0 +1,159 @@
+#include "engine/requirements.h"
+
+#include <cstdio>
+#include <cstring>
+
+#include "engine/structure.h"
+
+namespace alpenglow::engine {
+namespace {
+
+// clang-format off
+#define ALPENGLOW_CORE_FEATURES(X) \
+  X(robustBufferAccess) X(fullDrawIndexUint32) X(imageCubeArray) X(independentBlend) \
+  X(geometryShader) X(tessellationShader) X(sampleRateShading) X(dualSrcBlend) X(logicOp) \
+  X(multiDrawIndirect) X(drawIndirectFirstInstance) X(depthClamp) X(depthBiasClamp) \
+  X(fillModeNonSolid) X(depthBounds) X(wideLines) X(largePoints) X(alphaToOne) X(multiViewport) \
+  X(samplerAnisotropy) X(textureCompressionETC2) X(textureCompressionASTC_LDR) \
+  X(textureCompressionBC) X(occlusionQueryPrecise) X(pipelineStatisticsQuery) \
+  X(vertexPipelineStoresAndAtomics) X(fragmentStoresAndAtomics) \
+  X(shaderTessellationAndGeometryPointSize) X(shaderImageGatherExtended) \
+  X(shaderStorageImageExtendedFormats) X(shaderStorageImageMultisample) \
+  X(shaderStorageImageReadWithoutFormat) X(shaderStorageImageWriteWithoutFormat) \
+  X(shaderUniformBufferArrayDynamicIndexing) X(shaderSampledImageArrayDynamicIndexing) \
+  X(shaderStorageBufferArrayDynamicIndexing) X(shaderStorageImageArrayDynamicIndexing) \
+  X(shaderClipDistance) X(shaderCullDistance) X(shaderFloat64) X(shaderInt64) X(shaderInt16) \
+  X(shaderResourceResidency) X(shaderResourceMinLod) X(sparseBinding) X(sparseResidencyBuffer) \
+  X(sparseResidencyImage2D) X(sparseResidencyImage3D) X(sparseResidency2Samples) \
+  X(sparseResidency4Samples) X(sparseResidency8Samples) X(sparseResidency16Samples) \
+  X(sparseResidencyAliased) X(variableMultisampleRate) X(inheritedQueries)
+// clang-format on
+
+struct Feature {
+  const char* name;
+  VkBool32 VkPhysicalDeviceFeatures::*member;
+};
+constexpr Feature kFeatures[] = {
+#define ALPENGLOW_FEATURE(name) {#name, &VkPhysicalDeviceFeatures::name},
+    ALPENGLOW_CORE_FEATURES(ALPENGLOW_FEATURE)
+#undef ALPENGLOW_FEATURE
+};
+static_assert(sizeof(kFeatures) / sizeof(kFeatures[0]) ==
+              sizeof(VkPhysicalDeviceFeatures) / sizeof(VkBool32));
+
+/// A sentence that grows in a fixed buffer: an introduction, then gaps separated by commas.
+class GapList {
+ public:
+  void add(const char* gap) {
+    append(count_++ == 0 ? "" : ", ");
+    append(gap);
+  }
+  bool empty() const { return count_ == 0; }
+  const char* text() const { return text_; }
+
+ private:
+  void append(const char* part) {
+    const size_t used = std::strlen(text_);
+    std::snprintf(text_ + used, sizeof(text_) - used, "%s", part);
+  }
+
+  char text_[2048] = "";
+  int count_ = 0;
+};
+
+GapList listGaps(const Requirements& needed, const Requirements& offered) {
+  GapList gaps;
+  if (offered.apiVersion < needed.apiVersion) {
+    char version[64];
+    std::snprintf(version, sizeof(version), "Vulkan %u.%u (it is %u.%u)",
+                  VK_API_VERSION_MAJOR(needed.apiVersion), VK_API_VERSION_MINOR(needed.apiVersion),
+                  VK_API_VERSION_MAJOR(offered.apiVersion),
+                  VK_API_VERSION_MINOR(offered.apiVersion));
+    gaps.add(version);
+  }
+  if (needed.synchronization2 && !offered.synchronization2) gaps.add("synchronization2");
+  if (needed.dynamicRendering && !offered.dynamicRendering) gaps.add("dynamicRendering");
+  for (const Feature& feature : kFeatures) {
+    if (needed.features.*feature.member != VK_FALSE &&
+        offered.features.*feature.member == VK_FALSE) {
+      gaps.add(feature.name);
+    }
+  }
+  return gaps;
+}
+
+Status report(DiagnosticFn diagnostic, void* user, Status status, const char* before,
+              const char* name, const char* after, const char* list) {
+  char message[2560];
+  std::snprintf(message, sizeof(message), "%s%s%s%s.", before, name, after, list);
+  if (diagnostic != nullptr) diagnostic(user, {Severity::Error, status, VK_SUCCESS, message});
+  return status;
+}
+
+/// What the device has; the newer features are asked for only where it knows their struct.
+Requirements offeredBy(PFN_vkGetPhysicalDeviceFeatures2 getFeatures2,
+                       VkPhysicalDevice physicalDevice, uint32_t apiVersion) {
+  auto features13 = structure<VkPhysicalDeviceVulkan13Features>(
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
+  auto features =
+      structure<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+  if (apiVersion >= VK_API_VERSION_1_3) features.pNext = &features13;
+  getFeatures2(physicalDevice, &features);
+  Requirements offered;
+  offered.apiVersion = apiVersion;
+  offered.synchronization2 = features13.synchronization2 != VK_FALSE;
+  offered.dynamicRendering = features13.dynamicRendering != VK_FALSE;
+  offered.features = features.features;
+  return offered;
+}
+
+}  // namespace
+
+Status checkPhysicalDevice(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
+                           VkPhysicalDevice physicalDevice, const Requirements& needed,
+                           DiagnosticFn diagnostic, void* user) {
+  const char* null = nullptr;
+  if (physicalDevice == VK_NULL_HANDLE) null = "physicalDevice";
+  if (instance == VK_NULL_HANDLE) null = "instance";
+  if (getInstanceProcAddr == nullptr) null = "getInstanceProcAddr";
+  if (null != nullptr) {
+    return report(diagnostic, user, Status::InvalidArgument, "The argument ", null,
+                  " of the query is null, but the host's own is expected", "");
+  }
+  const auto getProperties = reinterpret_cast<PFN_vkGetPhysicalDeviceProperties>(
+      getInstanceProcAddr(instance, "vkGetPhysicalDeviceProperties"));
+  const auto getFeatures2 = reinterpret_cast<PFN_vkGetPhysicalDeviceFeatures2>(
+      getInstanceProcAddr(instance, "vkGetPhysicalDeviceFeatures2"));
+  if (getProperties == nullptr || getFeatures2 == nullptr) {
+    return report(
+        diagnostic, user, Status::Unsupported, "The instance doesn't offer ",
+        getProperties == nullptr ? "vkGetPhysicalDeviceProperties" : "vkGetPhysicalDeviceFeatures2",
+        ", which Vulkan 1.1 has", "");
+  }
+  VkPhysicalDeviceProperties properties = {};
+  getProperties(physicalDevice, &properties);
+  const Requirements offered = offeredBy(getFeatures2, physicalDevice, properties.apiVersion);
+  const GapList gaps = listGaps(needed, offered);
+  if (gaps.empty()) return Status::Ok;
+  return report(diagnostic, user, Status::Unsupported, "The device \"", properties.deviceName,
+                "\" lacks what is needed: ", gaps.text());
+}
+
+Status checkEnabled(const Requirements& needed, const Requirements& enabled,
+                    DiagnosticFn diagnostic, void* user) {
+  const GapList gaps = listGaps(needed, enabled);
+  if (gaps.empty()) return Status::Ok;
+  return report(diagnostic, user, Status::Unsupported, "ContextDesc::enabled", "",
+                " says that the device was made without what is needed: ", gaps.text());
+}
+
+void mergeRequirements(const Requirements& more, Requirements* needed) {
+  if (more.apiVersion > needed->apiVersion) needed->apiVersion = more.apiVersion;
+  needed->synchronization2 |= more.synchronization2;
+  needed->dynamicRendering |= more.dynamicRendering;
+  for (const Feature& feature : kFeatures) {
+    if (more.features.*feature.member != VK_FALSE) needed->features.*feature.member = VK_TRUE;
+  }
+}
+
+}  // namespace alpenglow::engine
