@@ -1,0 +1,287 @@
+#include <atmosphere/reference/single_scattering.h>
+
+#include <atmosphere/reference/shadow.h>
+
+#include <new>
+#include <numbers>
+
+namespace alpenglow {
+namespace reference {
+namespace {
+
+using physics_f64::Ray;
+
+/// A value with its error, for each wavelength.
+struct Estimate {
+  Spectrum value;
+  Spectrum error;
+};
+
+/// exp(-tau); an error of tau is a relative error of T.
+Estimate transmittanceOf(const SpectrumIntegral& depth) {
+  Estimate result;
+  for (uint32_t i = 0; i < kSpectrumSize; ++i) {
+    result.value[i] = std::exp(-depth.value[i]);
+    result.error[i] = result.value[i] * depth.error[i];
+  }
+  return result;
+}
+
+/// Optical depths inside another quadrature, or of a transmittance: an absolute error counts, once
+/// it is small against the light that is left.
+Tolerance depthTolerance(double tolerance) {
+  const double t = std::max(0.02 * tolerance, 1e-13);
+  return {t, t};
+}
+
+/// T max(mu_s, 0) on a horizontal surface at h, the sun's hidden part left out.
+Estimate directIrradiance(const Medium& medium, double h, double muS, const Tolerance& tolerance) {
+  Estimate result;
+  if (!(muS > 0.0)) {
+    return result;
+  }
+  const bool inside = h <= medium.thickness;
+  if (inside) {
+    result = transmittanceOf(opticalDepthToTop(medium, h, muS, tolerance));
+  }
+  const double lit = inside ? muS * physics_f64::sunVisibility(medium, h, muS) : muS;
+  for (uint32_t i = 0; i < kSpectrumSize; ++i) {
+    result.value[i] = inside ? result.value[i] * lit : lit;
+    result.error[i] *= lit;
+  }
+  return result;
+}
+
+/// View, sun and vertical of a query as vectors, and the ray they make in the atmosphere.
+struct Geometry {
+  Ray ray;
+  SunlitRay sunlit;  ///< From where the ray begins; its length is the ray's whole one.
+};
+
+Geometry makeGeometry(const Medium& medium, const ProbeQuery& query) {
+  using glm::dvec3;
+  const double viewSine = std::sin(query.viewZenith);
+  const double sunSine = std::sin(query.sunZenith);
+  const dvec3 view(viewSine, 0.0, std::cos(query.viewZenith));
+  const dvec3 sun(sunSine * std::cos(query.azimuth), sunSine * std::sin(query.azimuth),
+                  std::cos(query.sunZenith));
+  const dvec3 normal = glm::cross(sun, view);
+  const double r = physics_f64::radiusAt(medium, query.altitude_m);
+  const double nu = std::clamp(glm::dot(view, sun), -1.0, 1.0);
+
+  Geometry g;
+  g.ray = physics_f64::makeRay(medium, query.altitude_m, view.z, viewSine, sun.z, nu);
+  g.sunlit.stretch = {g.ray.h, g.ray.mu, g.ray.extent};
+  g.sunlit.muS = g.ray.muS;
+  g.sunlit.nu = nu;
+  g.sunlit.sineSquared = glm::dot(normal, normal);
+  g.sunlit.across = r * glm::dot(normal, glm::cross(sun, dvec3(0.0, 0.0, 1.0))) +
+                    g.ray.start * g.sunlit.sineSquared;
+  return g;
+}
+
+/// The light scattered along a stretch: equation 11 of the paper for J of the direct sun.
+class SingleScattering {
+ public:
+  SingleScattering(const Medium& medium, const SunlitRay& ray, double tolerance)
+      : medium_(medium),
+        ray_(ray),
+        tolerance_(tolerance),
+        depthTolerance_(depthTolerance(tolerance)),
+        pieces_(smoothPieces(medium, ray.stretch)) {
+    addSunlightPieces(medium, ray, pieces_);
+    addFreePaths();
+    tidyPieces(pieces_, ray.stretch.length);
+    depths_.resize(pieces_.size());
+    lit_.resize(pieces_.size() - 1);
+    for (size_t i = 0; i + 1 < pieces_.size(); ++i) {
+      lit_[i] = visibilityAt(0.5 * (pieces_[i] + pieces_[i + 1])) > 0.0;
+      depths_[i + 1] = depths_[i];
+      add(depths_[i + 1],
+          opticalDepthBetween(medium, ray.stretch, pieces_[i], pieces_[i + 1], depthTolerance_));
+    }
+  }
+
+  /// Optical depth of the whole stretch.
+  const SpectrumIntegral& depth() const { return depths_.back(); }
+
+  Estimate radiance() const {
+    double depthError = 0.0;
+    const auto integrand = [&](double t) { return lightAt(t, depthError); };
+    const Integral<kTerms> sum = integrate<kTerms>(integrand, pieces_, {tolerance_, 0.0});
+
+    const double rayleigh = physics_f64::rayleighPhase(ray_.nu);
+    const double mie = physics_f64::miePhase(medium_.mieAsymmetry, ray_.nu);
+    Estimate result;
+    for (uint32_t i = 0; i < kSpectrumSize; ++i) {
+      result.value[i] = rayleigh * sum.value[i] + mie * sum.value[kSpectrumSize + i];
+      result.error[i] = rayleigh * sum.error[i] + mie * sum.error[kSpectrumSize + i] +
+                        depthError * result.value[i];
+    }
+    return result;
+  }
+
+ private:
+  /// S_R and S_M apart, as the phase functions leave the integral (nu is constant along a ray).
+  static constexpr size_t kTerms = 2 * kSpectrumSize;
+
+  static void add(SpectrumIntegral& sum, const SpectrumIntegral& part) {
+    for (uint32_t i = 0; i < kSpectrumSize; ++i) {
+      sum.value[i] += part.value[i];
+      sum.error[i] += part.error[i];
+    }
+  }
+
+  /// In thick air the light comes from a few mean free paths, far less than a scale height.
+  void addFreePaths() {
+    const physics_f64::Spectrum density = physics_f64::extinction(medium_, ray_.stretch.h);
+    double most = 0.0;
+    for (uint32_t i = 0; i < kSpectrumSize; ++i) {
+      most = std::max(most, density[static_cast<glm::length_t>(i)]);
+    }
+    for (double paths : {1.0, 4.0, 16.0, 64.0}) {
+      if (most * ray_.stretch.length > paths) {
+        pieces_.push_back(paths / most);
+      }
+    }
+  }
+
+  double muSAt(double t, double h) const {
+    return physics_f64::muSAt(medium_, ray_.stretch.h, ray_.muS, ray_.nu, t, h);
+  }
+
+  double visibilityAt(double t) const {
+    const double h = physics_f64::altitudeAt(medium_, ray_.stretch.h, ray_.stretch.mu, t);
+    return physics_f64::sunVisibility(medium_, h, muSAt(t, h));
+  }
+
+  /// T(x, y) T_sun(y) times the scattering coefficients at y, t metres along the ray.
+  std::array<double, kTerms> lightAt(double t, double& depthError) const {
+    const auto after = std::upper_bound(pieces_.begin(), pieces_.end() - 1, t);
+    const size_t piece =
+        static_cast<size_t>(std::max<std::ptrdiff_t>(after - pieces_.begin(), 1)) - 1;
+    // A parallel beam steps at a piece's end, and its step is decided for the piece as a whole.
+    const bool sharp = !(medium_.sunSinRadius > 0.0);
+    const double visibility = sharp ? (lit_[piece] ? 1.0 : 0.0) : visibilityAt(t);
+    if (!(visibility > 0.0)) {
+      return {};
+    }
+    const double h = physics_f64::altitudeAt(medium_, ray_.stretch.h, ray_.stretch.mu, t);
+    SpectrumIntegral depth = depths_[piece];
+    add(depth, opticalDepthBetween(medium_, ray_.stretch, pieces_[piece], t, depthTolerance_));
+    add(depth, opticalDepthToTop(medium_, h, muSAt(t, h), depthTolerance_));
+
+    const double rayleigh = physics_f64::rayleighDensity(medium_, h);
+    const double mie = physics_f64::mieDensity(medium_, h);
+    std::array<double, kTerms> result;
+    for (uint32_t i = 0; i < kSpectrumSize; ++i) {
+      const auto c = static_cast<glm::length_t>(i);
+      const double light = visibility * std::exp(-depth.value[i]);
+      result[i] = light * rayleigh * medium_.rayleighScattering[c];
+      result[kSpectrumSize + i] = light * mie * medium_.mieScattering[c];
+      depthError = std::max(depthError, std::min(depth.error[i], 1.0));
+    }
+    return result;
+  }
+
+  const Medium& medium_;
+  SunlitRay ray_;
+  double tolerance_;
+  Tolerance depthTolerance_;
+  std::vector<double> pieces_;
+  std::vector<SpectrumIntegral> depths_;  ///< From the start to each end of a piece.
+  std::vector<bool> lit_;                 ///< Of each piece, for a sun without a disc.
+};
+
+/// R[L0] at the end of a ray on the ground (equation 10): Lambert's law for the direct sun.
+Estimate groundRadiance(const Medium& medium, const SunlitRay& ray, const Estimate& transmittance,
+                        const Tolerance& tolerance) {
+  const double muS =
+      physics_f64::muSAt(medium, ray.stretch.h, ray.muS, ray.nu, ray.stretch.length, 0.0);
+  const Estimate direct = directIrradiance(medium, 0.0, muS, tolerance);
+  Estimate result;
+  for (uint32_t i = 0; i < kSpectrumSize; ++i) {
+    const double albedo = medium.groundAlbedo[static_cast<glm::length_t>(i)];
+    const double factor = albedo / std::numbers::pi;
+    result.value[i] = transmittance.value[i] * factor * direct.value[i];
+    result.error[i] = factor * (transmittance.error[i] * direct.value[i] +
+                                transmittance.value[i] * direct.error[i]);
+  }
+  return result;
+}
+
+/// Queries in degrees come as rounded radians, so the nadir may exceed pi by a bit.
+bool isZenithAngle(double angle) { return angle >= 0.0 && angle <= std::numbers::pi * (1 + 1e-15); }
+
+bool isValid(const ProbeQuery& query) {
+  const bool common =
+      std::isfinite(query.altitude_m) && query.altitude_m >= 0.0 && isZenithAngle(query.sunZenith);
+  return common &&
+         (query.irradiance || (isZenithAngle(query.viewZenith) && std::isfinite(query.azimuth) &&
+                               std::isfinite(query.distance_m)));
+}
+
+}  // namespace
+
+ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, double tolerance) {
+  ReferenceAnswer answer;
+  if (query.irradiance) {
+    const Estimate direct = directIrradiance(medium, query.altitude_m, std::cos(query.sunZenith),
+                                             depthTolerance(tolerance));
+    answer.value.direct = direct.value;
+    answer.standardError.direct = direct.error;
+    return answer;
+  }
+  for (uint32_t i = 0; i < kSpectrumSize; ++i) {
+    answer.value.transmittance[i] = 1.0;
+  }
+  const Geometry geometry = makeGeometry(medium, query);
+  const Ray& ray = geometry.ray;
+  const bool whole = query.distance_m < 0.0 || query.distance_m >= ray.start + ray.extent;
+  if (!ray.inAtmosphere || query.distance_m == 0.0 || (!whole && query.distance_m <= ray.start)) {
+    return answer;
+  }
+
+  SunlitRay segment = geometry.sunlit;
+  segment.stretch.length = whole ? ray.extent : query.distance_m - ray.start;
+  Estimate transmittance{answer.value.transmittance, {}};
+  if (segment.stretch.length > 0.0) {
+    const SingleScattering scattering(medium, segment, tolerance);
+    transmittance = transmittanceOf(scattering.depth());
+    const Estimate sky = scattering.radiance();
+    answer.value.skyRadiance = sky.value;
+    answer.standardError.skyRadiance = sky.error;
+  }
+  answer.value.transmittance = transmittance.value;
+  answer.standardError.transmittance = transmittance.error;
+  answer.value.hitsGround = whole && ray.hitsGround;
+  if (answer.value.hitsGround) {
+    const Estimate ground =
+        groundRadiance(medium, segment, transmittance, depthTolerance(tolerance));
+    answer.value.groundRadiance = ground.value;
+    answer.standardError.groundRadiance = ground.error;
+  }
+  return answer;
+}
+
+}  // namespace reference
+
+inline namespace v1 {
+
+Status referenceSingleScattering(const Parameters& parameters, const ProbeQuery& query,
+                                 ReferenceAnswer* out) {
+  if (out == nullptr || !reference::isValid(query) ||
+      validate(parameters, nullptr, 0) != Status::Ok) {
+    return Status::InvalidArgument;
+  }
+  try {
+    *out = reference::singleScattering(makeMediumF64(parameters), query,
+                                       reference::kRelativeTolerance);
+  } catch (const std::bad_alloc&) {
+    return Status::OutOfHostMemory;
+  }
+  return Status::Ok;
+}
+
+}  // namespace v1
+}  // namespace alpenglow
