@@ -11,6 +11,7 @@
 
 #include "engine/deletion_queue.h"
 #include "engine/dispatch.h"
+#include "engine/result.h"
 
 #if defined(__GNUC__)
 #define ALPENGLOW_PRINTF(text, first) __attribute__((__format__(__printf__, text, first)))
@@ -140,10 +141,5 @@ class Device {
   std::mutex variantsMutex_;
   std::vector<uint64_t> variants_;  ///< Sorted keys.
 };
-
-/// "VK_ERROR_OUT_OF_DEVICE_MEMORY"; "VkResult" for a value that we don't know.
-const char* resultName(VkResult result);
-/// The status that stands for a result: Ok for all non-negative ones.
-Status statusOf(VkResult result);
 
 }  // namespace alpenglow::engine

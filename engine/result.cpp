@@ -1,5 +1,4 @@
-// Vulkan results as names and as statuses.
-#include "engine/device.h"
+#include "engine/result.h"
 
 namespace alpenglow::engine {
 

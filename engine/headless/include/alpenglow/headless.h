@@ -21,6 +21,9 @@ struct DeviceOptions {
   std::string select;      ///< Empty: the first suitable; digits: the index; else part of its name.
   bool validation = false; ///< VK_LAYER_KHRONOS_validation with synchronisation checks.
   RequirementsFn requirements;  ///< Null: Vulkan 1.3 with synchronization2 and dynamicRendering.
+  /// Called with each validation message too, from whichever thread causes it, until the device's
+  /// destructor has returned: how objects that outlive the device are heard of. May be null.
+  std::function<void(std::string_view)> onValidationMessage;
 };
 
 /// User CPU seconds of the process over submit and wait (all threads, so software Vulkan's too),

@@ -1,0 +1,72 @@
+// The loader, a VkInstance on it, and what the validation layers say.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/headless/functions.h"
+
+namespace alpenglow::headless {
+
+/// Warnings and errors of the layers, which may come from any thread.
+class MessageLog {
+ public:
+  explicit MessageLog(std::function<void(std::string_view)> listener)
+      : listener_(std::move(listener)) {}
+  void add(const char* message);
+  std::vector<std::string> messages() const;
+  void clear();
+
+ private:
+  std::function<void(std::string_view)> listener_;
+  mutable std::mutex mutex_;
+  std::vector<std::string> messages_;
+};
+
+/// Owns all three; the destructor undoes what was made.
+class Instance {
+ public:
+  /// Null on failure, with one sentence in `error`.
+  static std::unique_ptr<Instance> create(bool validation,
+                                          std::function<void(std::string_view)> listener,
+                                          std::string* error);
+  ~Instance();
+  Instance(const Instance&) = delete;
+  Instance& operator=(const Instance&) = delete;
+
+  PFN_vkGetInstanceProcAddr getInstanceProcAddr() const { return getInstanceProcAddr_; }
+  VkInstance handle() const { return instance_; }
+  bool validation() const { return validation_; }
+  Functions& vk() { return vk_; }
+  MessageLog& log() { return log_; }
+
+  /// At least one; empty on failure, with one sentence in `error`.
+  std::vector<VkPhysicalDevice> physicalDevices(std::string* error);
+  std::string nameOf(VkPhysicalDevice physicalDevice) const;
+
+ private:
+  Instance(bool validation, std::function<void(std::string_view)> listener)
+      : validation_(validation), log_(std::move(listener)) {}
+  bool openLoader(std::string* error);
+  bool checkValidationLayer(std::string* error);
+  bool createInstance(std::string* error);
+
+  bool validation_;
+  MessageLog log_;
+  void* library_ = nullptr;
+  PFN_vkGetInstanceProcAddr getInstanceProcAddr_ = nullptr;
+  VkInstance instance_ = VK_NULL_HANDLE;
+  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+  Functions vk_;
+};
+
+/// Puts the sentence where the caller wants it, if it does; false, for `return setError(...)`.
+bool setError(std::string* error, std::string sentence);
+/// "vkCreateInstance returned VK_ERROR_... (-3)."
+std::string resultSentence(const char* call, VkResult result);
+
+}  // namespace alpenglow::headless
