@@ -9,6 +9,8 @@ find_program(SPIRV_VAL spirv-val REQUIRED)
 
 # GLM compiles the physics of the shaders as C++; it is in no public header.
 find_package(glm REQUIRED)
+add_library(alpenglow_glm INTERFACE)
+target_link_libraries(alpenglow_glm INTERFACE $<BUILD_INTERFACE:glm::glm>)
 
 find_package(Threads REQUIRED)
 if(ALPENGLOW_BUILD_IO)

@@ -8,6 +8,10 @@ option(ALPENGLOW_BUILD_IO "Build Alpenglow::io (needs OpenImageIO and nlohmann-j
 option(ALPENGLOW_INSTALL "Add install rules" ${PROJECT_IS_TOP_LEVEL})
 option(ALPENGLOW_WARNINGS_AS_ERRORS "Stop at the first warning" ${PROJECT_IS_TOP_LEVEL})
 
+if(ALPENGLOW_BUILD_SAMPLES AND NOT ALPENGLOW_BUILD_IO)
+  message(FATAL_ERROR "ALPENGLOW_BUILD_SAMPLES needs ALPENGLOW_BUILD_IO, which is off.")
+endif()
+
 if(PROJECT_IS_TOP_LEVEL)
   get_property(multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
   if(NOT multi_config AND NOT CMAKE_BUILD_TYPE)
@@ -20,7 +24,6 @@ if(PROJECT_IS_TOP_LEVEL)
   if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
     set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
   endif()
-  # A name of its own, so that tests built beside an installed copy never pick that one up.
   enable_testing()
 endif()
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -45,3 +48,10 @@ target_compile_features(alpenglow_headers INTERFACE cxx_std_20)
 target_include_directories(alpenglow_headers INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/atmosphere/include>
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+
+# What hosts include in their own shaders: Alpenglow::shaders is a name with a property,
+# ALPENGLOW_GLSL_DIR, the include path for their GLSL compiler.
+add_library(alpenglow_glsl INTERFACE)
+add_library(Alpenglow::shaders ALIAS alpenglow_glsl)
+set_target_properties(alpenglow_glsl PROPERTIES EXPORT_NAME shaders
+                      ALPENGLOW_GLSL_DIR "${PROJECT_SOURCE_DIR}/shaders/glsl")

@@ -1,0 +1,47 @@
+# Installed: libraries with their CMake package, public headers, the program, and under
+# share/alpenglow the GLSL that hosts include, the sample scenes and their data.
+include(CMakePackageConfigHelpers)
+
+set(share "${CMAKE_INSTALL_DATADIR}/alpenglow")
+set(package "${CMAKE_INSTALL_LIBDIR}/cmake/Alpenglow")
+
+# alpenglow_options is empty outside of the build tree; it is exported because CMake lists what a
+# static library was linked to.
+install(TARGETS alpenglow_headers alpenglow_options alpenglow_glsl alpenglow_atmosphere
+                alpenglow_headless alpenglow_reference
+        EXPORT AlpenglowTargets
+        ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+        LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(EXPORT AlpenglowTargets NAMESPACE Alpenglow:: DESTINATION "${package}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/atmosphere/include/alpenglow"
+                  "${PROJECT_SOURCE_DIR}/engine/headless/include/alpenglow"
+        DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h"
+        PATTERN "io" EXCLUDE)
+install(DIRECTORY "${ALPENGLOW_GLSL_SOURCE_DIR}/alpenglow" "${ALPENGLOW_GLSL_SOURCE_DIR}/physics"
+        DESTINATION "${share}/glsl" FILES_MATCHING PATTERN "*.glsl")
+
+if(ALPENGLOW_BUILD_IO)
+  install(TARGETS alpenglow_io EXPORT AlpenglowIoTargets
+          ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+          LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(EXPORT AlpenglowIoTargets NAMESPACE Alpenglow:: DESTINATION "${package}")
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/atmosphere/include/alpenglow/io"
+          DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/alpenglow" FILES_MATCHING PATTERN "*.h")
+  install(FILES "${PROJECT_SOURCE_DIR}/cmake/AlpenglowOpenImageIO.cmake"
+          DESTINATION "${package}")
+endif()
+if(ALPENGLOW_BUILD_SAMPLES)
+  install(TARGETS alpenglow RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/samples/scenes" "${PROJECT_SOURCE_DIR}/samples/data"
+          DESTINATION "${share}")
+endif()
+
+set(ALPENGLOW_SHARE_DIR "${share}")
+configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/AlpenglowConfig.cmake.in"
+  "${PROJECT_BINARY_DIR}/AlpenglowConfig.cmake" INSTALL_DESTINATION "${package}"
+  PATH_VARS ALPENGLOW_SHARE_DIR)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/AlpenglowConfigVersion.cmake"
+                                 COMPATIBILITY SameMajorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/AlpenglowConfig.cmake"
+              "${PROJECT_BINARY_DIR}/AlpenglowConfigVersion.cmake"
+        DESTINATION "${package}")
