@@ -11,8 +11,8 @@ struct Context;  ///< Opaque.
 
 /// What the host wants to do. Bits; ask for what you use, each has its own requirements.
 enum Capability : uint32_t {
-  kCapabilityBake = 1u << 0,   ///< Compute shaders that fill the tables, and probe queries.
-  kCapabilitySky = 1u << 1,    ///< Graphics pipelines that draw sky and ground.
+  kCapabilityBake = 1u << 0,  ///< Compute shaders that fill the tables, and probe queries.
+  kCapabilitySky = 1u << 1,   ///< Graphics pipelines that draw sky and ground.
 };
 using CapabilityFlags = uint32_t;
 
@@ -28,8 +28,8 @@ struct Requirements {
 /// returns Unsupported and reports a sentence naming every gap to `diagnostic` (may be null).
 /// Thread-safe.
 Status queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
-                         VkPhysicalDevice physicalDevice, CapabilityFlags wanted,
-                         Requirements* out, DiagnosticFn diagnostic, void* user);
+                         VkPhysicalDevice physicalDevice, CapabilityFlags wanted, Requirements* out,
+                         DiagnosticFn diagnostic, void* user);
 
 /// Everything is the host's and outlives the context; zero means none or the default.
 struct ContextDesc {
@@ -37,8 +37,8 @@ struct ContextDesc {
   VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
   PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
-  CapabilityFlags capabilities = 0;  ///< 0: all.
-  Requirements enabled;              ///< What the host really enabled on its device.
+  CapabilityFlags capabilities = 0;         ///< 0: all.
+  Requirements enabled;                     ///< What the host really enabled on its device.
   const uint32_t* queueFamilies = nullptr;  ///< Families that will touch our images.
   uint32_t queueFamilyCount = 0;            ///< More than one makes images concurrent.
   VkPipelineCache pipelineCache = VK_NULL_HANDLE;

@@ -22,7 +22,7 @@ struct Spectrum {
 
 /// Air molecules. Density exp(-h / scaleHeight) up to the top; phase 3/(16 pi) (1 + nu^2).
 struct RayleighParameters {
-  bool present = false;     ///< false: no such molecules, the other fields are ignored.
+  bool present = false;       ///< false: no such molecules, the other fields are ignored.
   Spectrum scattering_per_m;  ///< beta_R at h = 0; extinction equals scattering.
   double scaleHeight_m = 0.0;
 };
@@ -52,8 +52,8 @@ struct Parameters {
   RayleighParameters rayleigh;
   MieParameters mie;
   AbsorptionParameters absorption;
-  Spectrum groundAlbedo;      ///< Uniform Lambertian ground, each in [0, 1].
-  Spectrum solarIrradiance;   ///< At the top of the atmosphere, on a surface facing the sun.
+  Spectrum groundAlbedo;          ///< Uniform Lambertian ground, each in [0, 1].
+  Spectrum solarIrradiance;       ///< At the top of the atmosphere, on a surface facing the sun.
   double sunAngularRadius = 0.0;  ///< Softens the terminator only; 0: a parallel beam.
 };
 

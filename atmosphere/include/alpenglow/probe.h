@@ -12,7 +12,7 @@ struct ProbeQuery {
   double altitude_m = 0.0;
   double viewZenith = 0.0;
   double sunZenith = 0.0;
-  double azimuth = 0.0;  ///< Between view and sun, about the observer's vertical.
+  double azimuth = 0.0;      ///< Between view and sun, about the observer's vertical.
   double distance_m = -1.0;  ///< Negative: to the ground or the top.
 };
 
@@ -32,8 +32,9 @@ inline constexpr VkDeviceSize kProbeAnswerBytes = 64;
 /// Records the evaluation of `count` queries; the raw answers go to `buffer` (usage STORAGE and
 /// host-visible or copied by the host), kProbeAnswerBytes each, from offset 0, and are made visible
 /// to host reads. Geometry is taken in double on the CPU, now. `tables` must be ready.
-Status recordProbe(const Tables* tables, VkCommandBuffer commands, const FrameInfo& frame,
-                   const ProbeQuery* queries, uint32_t count, VkBuffer buffer);
+Status recordProbe(Context* context, const Tables* tables, VkCommandBuffer commands,
+                   const FrameInfo& frame, const ProbeQuery* queries, uint32_t count,
+                   VkBuffer buffer);
 
 /// Turns the raw answers of recordProbe, read back after the GPU finished, into plain ones.
 Status readProbe(const Tables* tables, const ProbeQuery* queries, uint32_t count, const void* raw,

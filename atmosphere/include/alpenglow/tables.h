@@ -31,11 +31,12 @@ struct TableDesc {
   uint32_t orders = 0;  ///< Most events of a path; 0 means the solver's default (5).
   TableFormat format = TableFormat::Half;
   MieStorage mie = MieStorage::Full;
+  bool keepOrders = false;  ///< Keeps the scratch tables, so that each order's can be read back.
   TableSizes sizes;
 };
 
-/// Checks parameters and sizes, allocates, and records nothing. The tables are then Ok to bake or to
-/// upload. `tables` is destroyed with destroyTables, before its context.
+/// Checks parameters and sizes, allocates, and records nothing. The tables are then Ok to bake or
+/// to upload. `tables` is destroyed with destroyTables, before its context.
 Status createTables(Context* context, const Parameters& parameters, const TableDesc& desc,
                     Tables** out);
 
@@ -46,15 +47,15 @@ void destroyTables(Tables* tables, const FrameInfo& frame);
 /// One pass of the bake.
 struct BakeProgress {
   bool done = false;
-  const char* pass = "";     ///< The pass this call recorded into, such as "dJ 3". Static string
-                             ///< of the tables, valid while they live.
-  uint32_t passIndex = 0;    ///< 0 ... passCount - 1.
+  const char* pass = "";   ///< The pass this call recorded into, such as "dJ 3". Static string
+                           ///< of the tables, valid while they live.
+  uint32_t passIndex = 0;  ///< 0 ... passCount - 1.
   uint32_t passCount = 0;
-  bool passFinished = false; ///< This call recorded the pass's last tile.
-  uint32_t order = 0;        ///< Scattering order that the pass belongs to; 0 for T.
-  uint64_t unitsDone = 0;    ///< Work units recorded so far; a unit is about one table fetch.
+  bool passFinished = false;  ///< This call recorded the pass's last tile.
+  uint32_t order = 0;         ///< Scattering order that the pass belongs to; 0 for T.
+  uint64_t unitsDone = 0;     ///< Work units recorded so far; a unit is about one table fetch.
   uint64_t unitsTotal = 0;
-  uint64_t unitsRecorded = 0; ///< By this call.
+  uint64_t unitsRecorded = 0;  ///< By this call.
 };
 
 /// Records the next slice of the bake: at least one tile, at most about `budget` work units, never
@@ -62,18 +63,17 @@ struct BakeProgress {
 /// commands must execute in order on one queue. The finished tables are the same, byte for byte,
 /// however the bake is sliced. Leaves no state bound but the compute pipeline, set 0 and push
 /// constants. Scratch tables are freed when the frame of the last call completes.
-/// `pipelineStatistics` of a slice go between the caller's own commands.
-Status recordBake(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame,
-                  uint64_t budget, BakeProgress* progress);
+Status recordBake(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame, uint64_t budget,
+                  BakeProgress* progress);
 
 enum class TableId : uint32_t {
-  OpticalDepth,    ///< -ln T towards the top: x mu, y r. RGB, A = 0.
-  Irradiance,      ///< E of the sky on the ground, per unit solar irradiance: x mu_s, y r.
-  Scattering,      ///< S: C_* = S_R[L0] + S[L_*] / P_R, alpha C_M first channel if packed.
-  SingleMie,       ///< C_M = S_M[L0] / P_M; only with MieStorage::Full.
-  OrderIrradiance, ///< dE of the order just finished (order 1: the sun's direct light).
-  OrderScattering, ///< dS of the order just finished (order 1: Rayleigh, without phase).
-  OrderSingleMie,  ///< Order 1 only: Mie, without phase function.
+  OpticalDepth,     ///< -ln T towards the top: x mu, y r. RGB, A = 0.
+  Irradiance,       ///< E of the sky on the ground, per unit solar irradiance: x mu_s, y r.
+  Scattering,       ///< S: C_* = S_R[L0] + S[L_*] / P_R, alpha C_M first channel if packed.
+  SingleMie,        ///< C_M = S_M[L0] / P_M; only with MieStorage::Full.
+  OrderIrradiance,  ///< dE of the order just finished (order 1: the sun's direct light).
+  OrderScattering,  ///< dS of the order just finished (order 1: Rayleigh, without phase).
+  OrderSingleMie,   ///< Order 1 only: Mie, without phase function.
 };
 inline constexpr uint32_t kTableIdCount = 7;
 
@@ -89,9 +89,9 @@ struct TableInfo {
 Status tableInfo(const Tables* tables, TableId id, TableInfo* out);
 
 /// Records a copy into `buffer` (usage TRANSFER_DST), tightly packed from `offset` (a multiple of
-/// 16). Legal when the table is finished: T, E, S and the single Mie once the bake is done, those of
-/// an order right after the pass that finished them ("dS n"), before the next recordBake. The copy
-/// is made visible to the host's reads. NotReady otherwise.
+/// 16). Legal when the table is finished: T, E, S and the single Mie once the bake is done; those
+/// of an order, with TableDesc::keepOrders, right after the pass that finished them ("dS n"),
+/// before the next recordBake. The copy is made visible to the host's reads. NotReady otherwise.
 Status recordTableReadback(Tables* tables, VkCommandBuffer commands, TableId id, VkBuffer buffer,
                            VkDeviceSize offset);
 

@@ -76,8 +76,8 @@ struct SkyDraw {
 /// Records one full-screen draw of the viewport inside the host's rendering scope, with dynamic
 /// viewport and scissor. The tables must be ready. Clobbers: graphics pipeline, sets 0 and 1, push
 /// constants, viewport, scissor.
-Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame,
-                 const Tables* tables, const SkyDraw& draw);
+Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame, const Tables* tables,
+                 const SkyDraw& draw);
 
 /// A camera above a point of the planet, as scene files give it. Angles in radians: heading
 /// clockwise from north, pitch above the horizon (pi/2: the zenith), roll clockwise.

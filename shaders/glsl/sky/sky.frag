@@ -7,12 +7,13 @@ layout(constant_id = 0) const bool kMiePacked = false;
 layout(constant_id = 1) const bool kFisheye = false;
 layout(constant_id = 2) const bool kGround = true;  // some pixels may see the ground
 layout(constant_id = 3) const bool kSunDisc = true;
-layout(constant_id = 4) const bool kAlbedoMap = false;
 
 #define ALPENGLOW_MIE_PACKED kMiePacked
 #include "alpenglow/atmosphere.glsl"
 
+#ifdef ALPENGLOW_ALBEDO_MAP
 layout(set = 1, binding = 0) uniform sampler2D albedoMap;
+#endif
 
 // Directions in the planet's frame; mirrored by SkyConstants in atmosphere/sky/sky_pass.h.
 layout(push_constant) uniform SkyConstants {
@@ -42,9 +43,10 @@ vec3 viewDirection(out bool visible) {
   return normalize(forwardPixel.xyz + ndc.x * rightHalfAngle.xyz + ndc.y * downMapTexel.xyz);
 }
 
-// Albedo of the map where the ray meets the ground, at the level whose texels are as wide as the
+// Albedo where the ray meets the ground; of a map, at the level whose texels are as wide as the
 // pixel's footprint there.
-Spectrum mapAlbedo(Ray ray, vec3 view, float muGround) {
+Spectrum groundAlbedo(Ray ray, vec3 view, float muGround) {
+#ifdef ALPENGLOW_ALBEDO_MAP
   vec3 point = upAltitude.xyz * (alpenglowMedium.bottomRadius + upAltitude.w) +
                view * (ray.start + ray.extent);
   vec3 n = normalize(point);
@@ -52,6 +54,9 @@ Spectrum mapAlbedo(Ray ray, vec3 view, float muGround) {
                  acos(clamp(n.z, -1.0, 1.0)) / ALPENGLOW_PI);
   float footprint = (ray.start + ray.extent) * forwardPixel.w * inversesqrt(max(muGround, 0.05));
   return textureLod(albedoMap, uv, max(log2(footprint / downMapTexel.w), 0.0)).rgb;
+#else
+  return alpenglowMedium.groundAlbedo;
+#endif
 }
 
 // The ground's own light, dimmed on its way to the camera: T R[L], equations 10 and 14.
@@ -61,7 +66,7 @@ Spectrum groundTerm(Ray ray, vec3 view) {
                                        ray.hitsGround ? 12 : 0);
   float muGround = -muAt(alpenglowMedium, ray.h, ray.mu, d, 0.0);
   float muSGround = muSAt(alpenglowMedium, ray.h, ray.muS, ray.nu, d, 0.0);
-  Spectrum albedo = kAlbedoMap ? mapAlbedo(ray, view, muGround) : alpenglowMedium.groundAlbedo;
+  Spectrum albedo = groundAlbedo(ray, view, muGround);
   Spectrum light = groundRadiance(alpenglowMedium, alpenglowShape, albedo, muSGround) * exp(-depth);
   return ray.hitsGround ? light : SPECTRUM(0.0);
 }

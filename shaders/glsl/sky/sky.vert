@@ -1,7 +1,7 @@
 #version 460
 // A triangle that covers the viewport, at the far plane.
 
-layout(constant_id = 5) const float kFarDepth = 1.0;
+layout(constant_id = 4) const float kFarDepth = 1.0;
 
 layout(location = 0) out vec2 ndc;
 

@@ -1,0 +1,97 @@
+#include <new>
+
+#include "atmosphere/api/context_impl.h"
+#include "engine/requirements.h"
+
+namespace alpenglow {
+inline namespace v1 {
+namespace {
+
+constexpr CapabilityFlags kAllCapabilities = kCapabilityBake | kCapabilitySky;
+
+// Each capability asks for what it alone needs.
+Requirements requirementsOf(CapabilityFlags wanted) {
+  Requirements needed;
+  needed.apiVersion = VK_API_VERSION_1_3;
+  needed.synchronization2 = true;
+  needed.dynamicRendering = (wanted & kCapabilitySky) != 0;
+  return needed;
+}
+
+Status reportTo(DiagnosticFn diagnostic, void* user, Status status, const char* message) {
+  if (diagnostic != nullptr) diagnostic(user, {Severity::Error, status, VK_SUCCESS, message});
+  return status;
+}
+
+}  // namespace
+
+Status queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
+                         VkPhysicalDevice physicalDevice, CapabilityFlags wanted, Requirements* out,
+                         DiagnosticFn diagnostic, void* user) {
+  if (out == nullptr || (wanted & ~kAllCapabilities) != 0) {
+    return reportTo(diagnostic, user, Status::InvalidArgument,
+                    "queryRequirements needs a place for its answer and capabilities among "
+                    "kCapabilityBake and kCapabilitySky.");
+  }
+  *out = requirementsOf(wanted == 0 ? kAllCapabilities : wanted);
+  return engine::checkPhysicalDevice(getInstanceProcAddr, instance, physicalDevice, *out,
+                                     diagnostic, user);
+}
+
+Status createContext(const ContextDesc& desc, Context** out) {
+  if (out == nullptr) {
+    return reportTo(desc.diagnostic, desc.user, Status::InvalidArgument,
+                    "createContext needs a place for the context, but got null.");
+  }
+  *out = nullptr;
+  if ((desc.capabilities & ~kAllCapabilities) != 0) {
+    return reportTo(desc.diagnostic, desc.user, Status::InvalidArgument,
+                    "ContextDesc::capabilities has unknown bits, but only kCapabilityBake and "
+                    "kCapabilitySky exist.");
+  }
+  auto* context = new (std::nothrow) Context;
+  if (context == nullptr) {
+    return reportTo(desc.diagnostic, desc.user, Status::OutOfHostMemory,
+                    "A context found no host memory.");
+  }
+  context->capabilities = desc.capabilities == 0 ? kAllCapabilities : desc.capabilities;
+  Requirements needed = requirementsOf(context->capabilities);
+  needed.dynamicRendering = false;  // a host may draw in render passes; createView asks
+  Status status = engine::checkEnabled(needed, desc.enabled, desc.diagnostic, desc.user);
+  if (status == Status::Ok) status = engine::Device::create(desc, &context->device);
+  if (status == Status::Ok) status = bake::Resources::create(*context->device, &context->bake);
+  if (status == Status::Ok && (context->capabilities & kCapabilityBake) != 0)
+    status = sky::ProbePass::create(*context->bake, &context->probe);
+  if (status != Status::Ok) {
+    destroyContext(context);
+    return status;
+  }
+  *out = context;
+  return Status::Ok;
+}
+
+void destroyContext(Context* context) {
+  if (context == nullptr) return;
+  sky::ProbePass::destroy(context->probe);
+  bake::Resources::destroy(context->bake);
+  engine::Device::destroy(context->device);
+  delete context;
+}
+
+void collect(Context* context, uint64_t completed) {
+  if (context != nullptr) context->device->deletions().collect(completed);
+}
+
+void resourceReport(const Context* context, ResourceReport* out) {
+  if (context != nullptr && out != nullptr) *out = context->device->counters().report();
+}
+
+Status requireCapability(const Context& context, CapabilityFlags capability, const char* call) {
+  if ((context.capabilities & capability) != 0) return Status::Ok;
+  return context.device->fail(Status::Unsupported, VK_SUCCESS,
+                              "%s needs a context with %s, but this one was made without it.", call,
+                              capability == kCapabilityBake ? "kCapabilityBake" : "kCapabilitySky");
+}
+
+}  // namespace v1
+}  // namespace alpenglow

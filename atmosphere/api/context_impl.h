@@ -1,0 +1,23 @@
+// What the public handle alpenglow::Context points to.
+#pragma once
+
+#include <alpenglow/context.h>
+
+#include "atmosphere/bake/resources.h"
+#include "atmosphere/sky/probe_pass.h"
+
+namespace alpenglow {
+inline namespace v1 {
+
+struct Context {
+  engine::Device* device = nullptr;
+  CapabilityFlags capabilities = 0;
+  bake::Resources* bake = nullptr;  ///< Layouts that every capability needs.
+  sky::ProbePass* probe = nullptr;  ///< Only with kCapabilityBake.
+};
+
+/// Ok, or Unsupported with a sentence when the context was made without the capability.
+Status requireCapability(const Context& context, CapabilityFlags capability, const char* call);
+
+}  // namespace v1
+}  // namespace alpenglow

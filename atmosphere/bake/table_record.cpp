@@ -1,0 +1,271 @@
+// What Tables record: slices of the bake, readback and upload.
+#include <algorithm>
+
+#include "atmosphere/bake/table_set.h"
+
+namespace alpenglow {
+inline namespace v1 {
+namespace {
+
+using bake::kNoImage;
+
+// Where host shaders and our own sample the finished tables.
+constexpr ImageState kReadable = {
+    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+    VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+
+constexpr bool isOrderTable(TableId id) { return id >= TableId::OrderIrradiance; }
+
+VkBufferImageCopy wholeCopy(const engine::Image& image, VkDeviceSize offset) {
+  VkBufferImageCopy copy = {};
+  copy.bufferOffset = offset;
+  copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+  copy.imageExtent = image.desc.extent;
+  return copy;
+}
+
+uint64_t texelBytes(VkFormat format) { return format == VK_FORMAT_R32G32B32A32_SFLOAT ? 16 : 8; }
+
+}  // namespace
+
+Status Tables::recordBake(VkCommandBuffer commands, const FrameInfo& frame, uint64_t budget,
+                          BakeProgress* progress) {
+  if (uploaded_ != 0) {
+    return device_.fail(Status::InvalidArgument, VK_SUCCESS,
+                        "recordBake was called on tables that were filled by recordTableUpload, "
+                        "but a bake needs tables of its own.");
+  }
+  const uint32_t passCount = static_cast<uint32_t>(passes_.size());
+  BakeProgress now;
+  now.passCount = passCount;
+  now.unitsTotal = unitsTotal_;
+  if (currentPass_ < passCount) {
+    const bake::Pass& pass = passes_[currentPass_];
+    const uint64_t rowsWanted =
+        budget == 0 ? pass.rows : budget / std::max<uint64_t>(pass.unitsPerRow, 1);
+    const uint64_t tiles = std::clamp<uint64_t>(rowsWanted / bake::kTileRows, 1, 65535);
+    const uint32_t endRow =
+        static_cast<uint32_t>(std::min<uint64_t>(pass.rows, currentRow_ + tiles * bake::kTileRows));
+    const Status status = recordPass(commands, pass, currentRow_, endRow);
+    if (status != Status::Ok) return status;
+    now.unitsRecorded = (endRow - currentRow_) * pass.unitsPerRow;
+    now.passIndex = currentPass_;
+    now.pass = pass.name;
+    now.order = pass.order;
+    now.passFinished = endRow == pass.rows;
+    unitsDone_ += now.unitsRecorded;
+    currentRow_ = now.passFinished ? 0 : endRow;
+    currentPass_ += now.passFinished ? 1 : 0;
+    if (currentPass_ == passCount) {
+      const Status finished = finish(commands, frame);
+      if (finished != Status::Ok) return finished;
+    }
+  }
+  now.unitsDone = unitsDone_;
+  now.done = ready_;
+  if (progress != nullptr) *progress = now;
+  return Status::Ok;
+}
+
+Status Tables::recordPass(VkCommandBuffer commands, const bake::Pass& pass, uint32_t firstRow,
+                          uint32_t endRow) {
+  const engine::Dispatch& vk = device_.vk();
+  const bake::PassIo& io = bake::passIo(pass.kind);
+  engine::Barriers barriers;
+  for (const uint32_t* input = io.inputs; *input != kNoImage; ++input)
+    barriers.image(images_[*input], engine::kComputeSampled);
+  for (uint32_t i = 0; i < bake::kMaxOutputs && io.outputs[i] != kNoImage; ++i) {
+    engine::Image& image = images_[io.outputs[i]];
+    const bool last = i + 1 == bake::kMaxOutputs || io.outputs[i + 1] == kNoImage;
+    if (io.accumulates && last) {
+      barriers.image(image, engine::kComputeReadWrite);
+    } else if (firstRow == 0) {
+      barriers.discard(image, engine::kComputeWrite);
+    } else {
+      barriers.image(image, engine::kComputeWrite);
+    }
+  }
+  const Status status = barriers.record(device_, commands);
+  if (status != Status::Ok) return status;
+
+  device_.beginLabel(commands, pass.name);
+  const VkDescriptorSet sets[] = {inputSet_, outputSets_[static_cast<uint32_t>(pass.kind)]};
+  const bake::TileConstants tile = {firstRow, endRow, pass.width, pass.height};
+  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[currentPass_]);
+  vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, resources_.pipelineLayout(), 0,
+                           2, sets, 0, nullptr);
+  vk.CmdPushConstants(commands, resources_.pipelineLayout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                      sizeof tile, &tile);
+  vk.CmdDispatch(commands, (pass.width + 7) / 8,
+                 (endRow - firstRow + bake::kTileRows - 1) / bake::kTileRows, 1);
+  device_.endLabel(commands);
+  ++device_.counters().dispatches;
+  return Status::Ok;
+}
+
+Status Tables::makeReadable(VkCommandBuffer commands) {
+  engine::Barriers barriers;
+  for (uint32_t i = 0; i < bake::kImageCount; ++i)
+    if (persistent(i)) barriers.image(images_[i], kReadable);
+  return barriers.record(device_, commands);
+}
+
+Status Tables::finish(VkCommandBuffer commands, const FrameInfo& frame) {
+  const Status status = makeReadable(commands);
+  if (status != Status::Ok) return status;
+  ready_ = true;
+  if (!desc_.keepOrders) releaseScratch(frame);
+  return Status::Ok;
+}
+
+void Tables::releaseScratch(const FrameInfo& frame) {
+  if (scratchReleased_) return;
+  scratchReleased_ = true;
+  for (uint32_t i = 0; i < bake::kImageCount; ++i)
+    if (!persistent(i)) engine::deferImage(device_, frame.submitting, &images_[i]);
+  engine::deferBlock(device_, frame.submitting, &scratchBlock_);
+}
+
+uint32_t Tables::imageOf(TableId id) const {
+  switch (id) {
+    case TableId::OpticalDepth:
+      return bake::kOpticalDepth;
+    case TableId::Irradiance:
+      return bake::kIrradiance;
+    case TableId::Scattering:
+      return bake::kScattering;
+    case TableId::SingleMie:
+      return desc_.mie == MieStorage::Full ? bake::kDeltaMie : kNoImage;
+    case TableId::OrderIrradiance:
+      return desc_.keepOrders ? bake::kDeltaIrradiance : kNoImage;
+    case TableId::OrderScattering:
+      return desc_.keepOrders ? bake::kDeltaScattering : kNoImage;
+    case TableId::OrderSingleMie:
+      return desc_.keepOrders ? bake::kDeltaMie : kNoImage;
+  }
+  return kNoImage;
+}
+
+Status Tables::info(TableId id, TableInfo* out) const {
+  static constexpr const char* kNames[kTableIdCount] = {
+      "optical_depth",    "irradiance",       "scattering",      "single_mie",
+      "order irradiance", "order scattering", "order single Mie"};
+  const uint32_t index = static_cast<uint32_t>(id);
+  const uint32_t image = index < kTableIdCount ? imageOf(id) : kNoImage;
+  *out = {};
+  if (image == kNoImage) {
+    return device_.fail(Status::Unsupported, VK_SUCCESS,
+                        "These tables have no table %s: it needs %s.",
+                        index < kTableIdCount ? kNames[index] : "of an unknown TableId",
+                        isOrderTable(id) ? "TableDesc::keepOrders" : "MieStorage::Full");
+  }
+  const engine::ImageDesc& desc = images_[image].desc;
+  out->name = kNames[index];
+  out->width = desc.extent.width;
+  out->height = desc.extent.height;
+  out->depth = desc.extent.depth;
+  out->format = desc.format;
+  out->bytes = uint64_t(out->width) * out->height * out->depth * texelBytes(out->format);
+  return Status::Ok;
+}
+
+// Order tables can be read between the pass that finished them and the next one.
+bool Tables::readable(TableId id) const {
+  if (!isOrderTable(id)) return ready_;
+  if (currentRow_ != 0 || currentPass_ == 0) return false;
+  const bake::Pass& last = passes_[currentPass_ - 1];
+  const bool scattered = last.kind == bake::PassKind::SingleScattering ||
+                         last.kind == bake::PassKind::MultipleScattering;
+  return scattered && (id != TableId::OrderSingleMie || last.order == 1);
+}
+
+Status Tables::recordReadback(VkCommandBuffer commands, TableId id, VkBuffer buffer,
+                              VkDeviceSize offset) {
+  TableInfo table;
+  Status status = info(id, &table);
+  if (status != Status::Ok) return status;
+  if (buffer == VK_NULL_HANDLE || offset % 16 != 0) {
+    return device_.fail(Status::InvalidArgument, VK_SUCCESS,
+                        "The readback of table %s got %s buffer and offset %llu, but needs a "
+                        "buffer and a multiple of 16.",
+                        table.name, buffer == VK_NULL_HANDLE ? "a null" : "a",
+                        static_cast<unsigned long long>(offset));
+  }
+  if (!readable(id)) {
+    return device_.fail(Status::NotReady, VK_SUCCESS,
+                        isOrderTable(id)
+                            ? "The table %s can be read back only right after the pass \"dS n\" "
+                              "has finished (OrderSingleMie after \"dS 1\")."
+                            : "The table %s can be read back only when the bake is done or the "
+                              "tables are uploaded.",
+                        table.name);
+  }
+  engine::Image& image = images_[imageOf(id)];
+  engine::Barriers barriers;
+  barriers.image(image, engine::kTransferSource);
+  status = barriers.record(device_, commands);
+  if (status != Status::Ok) return status;
+  const VkBufferImageCopy copy = wholeCopy(image, offset);
+  device_.vk().CmdCopyImageToBuffer(commands, image.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                    buffer, 1, &copy);
+  barriers.image(image, kReadable);
+  barriers.memory(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+  return barriers.record(device_, commands);
+}
+
+Status Tables::recordUpload(VkCommandBuffer commands, const FrameInfo& frame, TableId id,
+                            VkBuffer buffer, VkDeviceSize offset) {
+  TableInfo table;
+  Status status = info(id, &table);
+  if (status != Status::Ok) return status;
+  if (isOrderTable(id) || buffer == VK_NULL_HANDLE || offset % 16 != 0 || unitsDone_ != 0) {
+    return device_.fail(Status::InvalidArgument, VK_SUCCESS,
+                        "The upload of table %s (buffer %s, offset %llu, %s) needs a final table, "
+                        "a buffer, an offset that is a multiple of 16, and tables without a bake.",
+                        table.name, buffer == VK_NULL_HANDLE ? "null" : "given",
+                        static_cast<unsigned long long>(offset),
+                        unitsDone_ != 0 ? "bake begun" : "no bake begun");
+  }
+  const uint32_t index = imageOf(id);
+  engine::Image& image = images_[index];
+  engine::Barriers barriers;
+  barriers.discard(image, engine::kTransferDestination);
+  status = barriers.record(device_, commands);
+  if (status != Status::Ok) return status;
+  const VkBufferImageCopy copy = wholeCopy(image, offset);
+  device_.vk().CmdCopyBufferToImage(commands, buffer, image.handle,
+                                    VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+  barriers.image(image, kReadable);
+  status = barriers.record(device_, commands);
+  if (status != Status::Ok) return status;
+  uploaded_ |= 1u << index;
+  uint32_t needed = 0;
+  for (uint32_t i = 0; i < bake::kImageCount; ++i)
+    if (persistent(i)) needed |= 1u << i;
+  if (uploaded_ == needed && !ready_) {
+    ready_ = true;
+    releaseScratch(frame);
+  }
+  return Status::Ok;
+}
+
+Status Tables::assertReadable() const {
+  if (!ready_) {
+    return device_.fail(Status::NotReady, VK_SUCCESS,
+                        "The tables are not ready: %llu of %llu work units are baked.",
+                        static_cast<unsigned long long>(unitsDone_),
+                        static_cast<unsigned long long>(unitsTotal_));
+  }
+  for (uint32_t i = 0; i < bake::kImageCount; ++i) {
+    if (!persistent(i)) continue;
+    const Status status =
+        engine::assertLayout(device_, images_[i], VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    if (status != Status::Ok) return status;
+  }
+  return Status::Ok;
+}
+
+}  // namespace v1
+}  // namespace alpenglow

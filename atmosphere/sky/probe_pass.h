@@ -1,0 +1,56 @@
+// The compute pass that answers point queries from the tables.
+#pragma once
+
+#include <alpenglow/probe.h>
+
+#include <mutex>
+
+#include "atmosphere/bake/table_set.h"
+
+namespace alpenglow::sky {
+
+/// Twin of Query in shaders/glsl/sky/probe.comp.
+struct PreparedQuery {
+  float h, mu, muS, nu;
+  float d, extent, muSGround;
+  uint32_t flags;
+};
+static_assert(sizeof(PreparedQuery) == 32);
+
+/// Ok, or a sentence that names the query by its index and the field.
+Status checkQuery(const engine::Device& device, uint32_t index, const ProbeQuery& query);
+PreparedQuery prepareQuery(const physics_f64::Medium& medium, const ProbeQuery& query);
+
+/// Layouts and pipelines of the pass; one for each context. Thread-safe.
+class ProbePass {
+ public:
+  static Status create(bake::Resources& resources, ProbePass** out);
+  static void destroy(ProbePass* pass);
+  Status record(const Tables& tables, VkCommandBuffer commands, const FrameInfo& frame,
+                const ProbeQuery* queries, uint32_t count, VkBuffer answers);
+
+ private:
+  explicit ProbePass(bake::Resources& resources)
+      : resources_(resources), device_(resources.device()) {}
+  Status makeLayouts();
+  Status pipeline(MieStorage mie, VkPipeline* out);
+
+  /// What one call needs until its frame completes.
+  struct Call {
+    engine::Buffer queries;
+    engine::MemoryBlock block;
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    VkDescriptorSet set = VK_NULL_HANDLE;
+  };
+  Status prepareCall(const Tables& tables, const ProbeQuery* queries, uint32_t count,
+                     VkBuffer answers, Call* call);
+
+  bake::Resources& resources_;
+  engine::Device& device_;
+  VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  std::mutex mutex_;
+  VkPipeline pipelines_[2] = {};  ///< By MieStorage; made when first used.
+};
+
+}  // namespace alpenglow::sky

@@ -1,0 +1,175 @@
+#include "atmosphere/sky/sky_pass.h"
+
+#include <alpenglow/shaders/sky_fragment.h>
+#include <alpenglow/shaders/sky_fragment_map.h>
+#include <alpenglow/shaders/sky_vertex.h>
+
+#include <new>
+
+namespace alpenglow {
+namespace sky {
+
+Status checkViewDesc(const engine::Device& device, const ViewDesc& desc) {
+  const VkFormatFeatureFlags features =
+      device.formatProperties(desc.colorFormat).optimalTilingFeatures;
+  if (desc.colorFormat == VK_FORMAT_UNDEFINED ||
+      (features & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT) == 0) {
+    return device.fail(Status::Unsupported, VK_SUCCESS,
+                       "ViewDesc::colorFormat is VkFormat %d, but must be one that this device can "
+                       "render to.",
+                       static_cast<int>(desc.colorFormat));
+  }
+  if (desc.viewMask != 0) {
+    return device.fail(Status::Unsupported, VK_SUCCESS,
+                       "ViewDesc::viewMask is 0x%x, but must be 0: this version draws one view "
+                       "at a time.",
+                       desc.viewMask);
+  }
+  if (desc.projection > Projection::Fisheye || desc.depth > DepthConvention::Reversed ||
+      desc.mie > MieStorage::Packed) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "ViewDesc has projection %u, depth %u and mie %u, but each must be 0 or 1.",
+                       static_cast<uint32_t>(desc.projection), static_cast<uint32_t>(desc.depth),
+                       static_cast<uint32_t>(desc.mie));
+  }
+  if (desc.groundAlbedo.view != VK_NULL_HANDLE &&
+      (desc.groundAlbedo.sampler == VK_NULL_HANDLE || desc.groundAlbedo.height == 0)) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "ViewDesc::groundAlbedo has a view with %s sampler and height %u, but "
+                       "needs a sampler and the image's size.",
+                       desc.groundAlbedo.sampler == VK_NULL_HANDLE ? "no" : "a",
+                       desc.groundAlbedo.height);
+  }
+  return Status::Ok;
+}
+
+}  // namespace sky
+
+inline namespace v1 {
+
+Status View::create(bake::Resources& resources, const ViewDesc& desc, View** out) {
+  *out = nullptr;
+  engine::Device& device = resources.device();
+  auto* view = new (std::nothrow) View(resources, desc);
+  if (view == nullptr) {
+    return device.fail(Status::OutOfHostMemory, VK_SUCCESS, "A view found no host memory.");
+  }
+  Status status = view->makeLayout();
+  if (status == Status::Ok) status = view->makePipelines();
+  if (status != Status::Ok) {
+    destroy(view, FrameInfo{});  // Nothing was recorded with it: frame 0 has always completed.
+    return status;
+  }
+  *out = view;
+  return Status::Ok;
+}
+
+void View::destroy(View* view, const FrameInfo& frame) {
+  if (view == nullptr) return;
+  engine::DeletionQueue& deletions = view->device_.deletions();
+  for (VkPipeline pipeline : view->pipelines_)
+    deletions.defer(frame.submitting, VK_OBJECT_TYPE_PIPELINE, engine::handleNumber(pipeline));
+  deletions.defer(frame.submitting, VK_OBJECT_TYPE_PIPELINE_LAYOUT,
+                  engine::handleNumber(view->layout_));
+  deletions.defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
+                  engine::handleNumber(view->pool_));
+  deletions.defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT,
+                  engine::handleNumber(view->mapLayout_));
+  delete view;
+  deletions.collect(frame.completed);
+}
+
+Status View::makeLayout() {
+  const VkDescriptorSetLayoutBinding binding = {0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
+                                                VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
+  VkDescriptorSetLayout sets[2] = {resources_.tableLayout(), VK_NULL_HANDLE};
+  uint32_t setCount = 1;
+  if (desc_.groundAlbedo.view != VK_NULL_HANDLE) {
+    Status status =
+        engine::createSetLayout(device_, &binding, 1, "Alpenglow albedo map", &mapLayout_);
+    if (status != Status::Ok) return status;
+    const engine::PoolPart part = {&binding, 1, 1};
+    status = engine::createPool(device_, &part, 1, "Alpenglow view", &pool_);
+    if (status != Status::Ok) return status;
+    status = engine::allocateSets(device_, pool_, &mapLayout_, 1, "Alpenglow albedo map", &mapSet_);
+    if (status != Status::Ok) return status;
+    engine::DescriptorWriter writer(mapSet_);
+    writer.sampledImage(0, desc_.groundAlbedo.view, desc_.groundAlbedo.sampler,
+                        desc_.groundAlbedo.layout);
+    status = writer.flush(device_);
+    if (status != Status::Ok) return status;
+    sets[setCount++] = mapLayout_;
+  }
+  const VkPushConstantRange range = {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(sky::SkyConstants)};
+  return engine::createPipelineLayout(device_, sets, setCount, &range, 1, "Alpenglow sky",
+                                      &layout_);
+}
+
+Status View::makePipelines() {
+  namespace s = alpenglow::shaders;
+  const bool reversed = desc_.depth == DepthConvention::Reversed;
+  engine::GraphicsPipelineDesc desc;
+  desc.vertex = {s::kSkyVertex, sizeof s::kSkyVertex, "sky.vert"};
+  desc.fragment =
+      desc_.groundAlbedo.view != VK_NULL_HANDLE
+          ? engine::Shader{s::kSkyFragmentMap, sizeof s::kSkyFragmentMap, "sky.frag map"}
+          : engine::Shader{s::kSkyFragment, sizeof s::kSkyFragment, "sky.frag"};
+  desc.layout = layout_;
+  desc.colorFormat = desc_.colorFormat;
+  desc.depthFormat = desc_.depthFormat;
+  desc.samples = desc_.samples;
+  desc.renderPass = desc_.renderPass;
+  desc.subpass = desc_.subpass;
+  desc.depthTest = desc_.depthFormat != VK_FORMAT_UNDEFINED;
+  desc.depthCompare = reversed ? VK_COMPARE_OP_GREATER_OR_EQUAL : VK_COMPARE_OP_LESS_OR_EQUAL;
+  for (uint32_t i = 0; i < kVariants; ++i) {
+    const engine::SpecConstant constants[] = {
+        engine::specBool(0, desc_.mie == MieStorage::Packed),
+        engine::specBool(1, desc_.projection == Projection::Fisheye),
+        engine::specBool(2, (i & 1) != 0), engine::specBool(3, (i & 2) != 0),
+        engine::specFloat(4, reversed ? 0.0f : 1.0f)};
+    desc.constants = constants;
+    desc.constantCount = 5;
+    const Status status = engine::createGraphicsPipeline(device_, desc, &pipelines_[i]);
+    if (status != Status::Ok) return status;
+  }
+  return Status::Ok;
+}
+
+Status View::recordSky(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw) {
+  Status status = sky::checkDraw(device_, desc_, draw);
+  if (status != Status::Ok) return status;
+  if (tables.desc().mie != desc_.mie) {
+    return device_.fail(Status::InvalidArgument, VK_SUCCESS,
+                        "The tables store single Mie scattering %s, but ViewDesc::mie says %s.",
+                        tables.desc().mie == MieStorage::Full ? "in full" : "packed",
+                        desc_.mie == MieStorage::Full ? "in full" : "packed");
+  }
+  status = tables.assertReadable();
+  if (status != Status::Ok) return status;
+
+  const engine::Dispatch& vk = device_.vk();
+  const sky::SkyConstants constants = sky::makeConstants(tables.parameters(), desc_, draw);
+  const uint32_t chosen = variant(sky::visible(tables.parameters(), desc_, draw));
+  const VkRect2D& area = draw.viewport;
+  const VkViewport viewport = {static_cast<float>(area.offset.x),
+                               static_cast<float>(area.offset.y),
+                               static_cast<float>(area.extent.width),
+                               static_cast<float>(area.extent.height),
+                               0.0f,
+                               1.0f};
+  const VkDescriptorSet sets[2] = {tables.descriptorSet(), mapSet_};
+  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_[chosen]);
+  vk.CmdSetViewport(commands, 0, 1, &viewport);
+  vk.CmdSetScissor(commands, 0, 1, &area);
+  vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0,
+                           mapSet_ != VK_NULL_HANDLE ? 2 : 1, sets, 0, nullptr);
+  vk.CmdPushConstants(commands, layout_, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,
+                      &constants);
+  vk.CmdDraw(commands, 3, 1, 0, 0);
+  ++device_.counters().draws;
+  return Status::Ok;
+}
+
+}  // namespace v1
+}  // namespace alpenglow

@@ -1,0 +1,71 @@
+// The pass that draws sky, sun disc and ground: what the public handle alpenglow::View points to.
+#pragma once
+
+#include <alpenglow/view.h>
+
+#include "atmosphere/bake/table_set.h"
+
+namespace alpenglow {
+namespace sky {
+
+/// Push constants of sky.frag: shaders/glsl/sky/sky.frag says what each is.
+struct SkyConstants {
+  float upAltitude[4];
+  float forwardPixel[4];
+  float rightHalfAngle[4];
+  float downMapTexel[4];
+  float sunDiscChord[4];
+  float irradianceDisc[4];
+  float circleScale[4];
+};
+static_assert(sizeof(SkyConstants) == 112, "Vulkan guarantees 128 bytes");
+
+/// What a frame's camera may see: chooses the pipeline.
+struct Visible {
+  bool ground = true;
+  bool disc = true;
+};
+
+/// Conservative, from the cones around the view, the planet and the sun.
+Visible visible(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw);
+/// Fills the constants; everything is computed in double and rounded once.
+SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw);
+/// Ok, or a sentence that names the wrong field.
+Status checkDraw(const engine::Device& device, const ViewDesc& desc, const SkyDraw& draw);
+Status checkViewDesc(const engine::Device& device, const ViewDesc& desc);
+
+}  // namespace sky
+
+inline namespace v1 {
+
+/// Externally synchronised.
+struct View {
+ public:
+  static Status create(bake::Resources& resources, const ViewDesc& desc, View** out);
+  static void destroy(View* view, const FrameInfo& frame);
+  Status recordSky(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw);
+  void collect(const FrameInfo& frame) { device_.deletions().collect(frame.completed); }
+
+ private:
+  View(bake::Resources& resources, const ViewDesc& desc)
+      : resources_(resources), device_(resources.device()), desc_(desc) {}
+  Status makeLayout();
+  Status makePipelines();
+
+  static constexpr uint32_t kVariants = 4;  ///< Ground in view or not, disc in view or not.
+  static uint32_t variant(const sky::Visible& v) {
+    return (v.ground ? 1u : 0u) + (v.disc ? 2u : 0u);
+  }
+
+  bake::Resources& resources_;
+  engine::Device& device_;
+  ViewDesc desc_;
+  VkDescriptorSetLayout mapLayout_ = VK_NULL_HANDLE;  ///< Only with an albedo map.
+  VkDescriptorPool pool_ = VK_NULL_HANDLE;
+  VkDescriptorSet mapSet_ = VK_NULL_HANDLE;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  VkPipeline pipelines_[kVariants] = {};
+};
+
+}  // namespace v1
+}  // namespace alpenglow
