@@ -1,0 +1,32 @@
+#!/usr/bin/env bash
+# check_files.sh SOURCE_DIR: habits that a compiler doesn't check. A file has one concept and so at
+# most 450 lines; the sample host stays under 250; the public headers bring no STL containers along
+# (but for the headless and io ones, which are no part of the boundary to a host).
+set -euo pipefail
+cd "$1"
+
+failed=0
+complain() {
+  echo "$1" >&2
+  failed=1
+}
+
+while IFS= read -r file; do
+  lines="$(wc -l <"$file")"
+  if (( lines > 450 )); then
+    complain "$file has $lines lines, at most 450 are allowed."
+  fi
+done < <(find atmosphere engine shaders samples tests cmake scripts -type f \
+  \( -name '*.h' -o -name '*.cpp' -o -name '*.glsl' -o -name '*.comp' -o -name '*.vert' \
+     -o -name '*.frag' -o -name '*.cmake' -o -name '*.sh' -o -name CMakeLists.txt \))
+
+lines="$(wc -l <samples/embed_minimal/main.cpp)"
+if (( lines >= 250 )); then
+  complain "samples/embed_minimal/main.cpp has $lines lines, under 250 are promised."
+fi
+
+if grep -HnE '#include <(string|vector|map|memory|functional|optional|glm)' \
+    atmosphere/include/alpenglow/*.h; then
+  complain "A header of the core includes what has no place in its interface, see above."
+fi
+exit "$failed"
