@@ -1,10 +1,11 @@
 #include <alpenglow/parameters.h>
-#include <atmosphere/model/limits.h>
 
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <numbers>
+
+#include "atmosphere/model/limits.h"
 
 namespace alpenglow {
 inline namespace v1 {

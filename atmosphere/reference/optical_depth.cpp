@@ -1,4 +1,4 @@
-#include <atmosphere/reference/optical_depth.h>
+#include "atmosphere/reference/optical_depth.h"
 
 namespace alpenglow::reference {
 namespace {

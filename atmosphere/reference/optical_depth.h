@@ -1,8 +1,8 @@
 // Optical depth along rays in double, by adaptive quadrature of the physics' extinction.
 #pragma once
 
-#include <atmosphere/model/physics_cpp.h>
-#include <atmosphere/reference/quadrature.h>
+#include "atmosphere/model/physics_cpp.h"
+#include "atmosphere/reference/quadrature.h"
 
 namespace alpenglow::reference {
 

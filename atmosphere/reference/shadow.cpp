@@ -1,4 +1,4 @@
-#include <atmosphere/reference/shadow.h>
+#include "atmosphere/reference/shadow.h"
 
 #include <cmath>
 

@@ -1,9 +1,9 @@
 // Where along a ray the sunlight changes abruptly.
 #pragma once
 
-#include <atmosphere/reference/optical_depth.h>
-
 #include <vector>
+
+#include "atmosphere/reference/optical_depth.h"
 
 namespace alpenglow::reference {
 

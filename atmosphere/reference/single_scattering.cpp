@@ -1,15 +1,14 @@
-#include <atmosphere/reference/single_scattering.h>
-
-#include <atmosphere/reference/shadow.h>
+#include "atmosphere/reference/single_scattering.h"
 
 #include <new>
 #include <numbers>
 
+#include "atmosphere/model/query.h"
+#include "atmosphere/reference/shadow.h"
+
 namespace alpenglow {
 namespace reference {
 namespace {
-
-using physics_f64::Ray;
 
 /// A value with its error, for each wavelength.
 struct Estimate {
@@ -52,14 +51,11 @@ Estimate directIrradiance(const Medium& medium, double h, double muS, const Tole
   return result;
 }
 
-/// View, sun and vertical of a query as vectors, and the ray they make in the atmosphere.
-struct Geometry {
-  Ray ray;
-  SunlitRay sunlit;  ///< From where the ray begins; its length is the ray's whole one.
-};
-
-Geometry makeGeometry(const Medium& medium, const ProbeQuery& query) {
+/// The resolved segment with what the sun's side needs; vectors, as shadow.h says why.
+SunlitRay makeSunlitRay(const Medium& medium, const ProbeQuery& query,
+                        const ResolvedQuery& resolved) {
   using glm::dvec3;
+  const dvec3 vertical(0.0, 0.0, 1.0);
   const double viewSine = std::sin(query.viewZenith);
   const double sunSine = std::sin(query.sunZenith);
   const dvec3 view(viewSine, 0.0, std::cos(query.viewZenith));
@@ -67,17 +63,15 @@ Geometry makeGeometry(const Medium& medium, const ProbeQuery& query) {
                   std::cos(query.sunZenith));
   const dvec3 normal = glm::cross(sun, view);
   const double r = physics_f64::radiusAt(medium, query.altitude_m);
-  const double nu = std::clamp(glm::dot(view, sun), -1.0, 1.0);
 
-  Geometry g;
-  g.ray = physics_f64::makeRay(medium, query.altitude_m, view.z, viewSine, sun.z, nu);
-  g.sunlit.stretch = {g.ray.h, g.ray.mu, g.ray.extent};
-  g.sunlit.muS = g.ray.muS;
-  g.sunlit.nu = nu;
-  g.sunlit.sineSquared = glm::dot(normal, normal);
-  g.sunlit.across = r * glm::dot(normal, glm::cross(sun, dvec3(0.0, 0.0, 1.0))) +
-                    g.ray.start * g.sunlit.sineSquared;
-  return g;
+  SunlitRay sunlit;
+  sunlit.stretch = {resolved.ray.h, resolved.ray.mu, resolved.length};
+  sunlit.muS = resolved.ray.muS;
+  sunlit.nu = resolved.ray.nu;
+  sunlit.sineSquared = glm::dot(normal, normal);
+  sunlit.across =
+      r * glm::dot(normal, glm::cross(sun, vertical)) + resolved.ray.start * sunlit.sineSquared;
+  return sunlit;
 }
 
 /// The light scattered along a stretch: equation 11 of the paper for J of the direct sun.
@@ -235,15 +229,11 @@ ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, 
   for (uint32_t i = 0; i < kSpectrumSize; ++i) {
     answer.value.transmittance[i] = 1.0;
   }
-  const Geometry geometry = makeGeometry(medium, query);
-  const Ray& ray = geometry.ray;
-  const bool whole = query.distance_m < 0.0 || query.distance_m >= ray.start + ray.extent;
-  if (!ray.inAtmosphere || query.distance_m == 0.0 || (!whole && query.distance_m <= ray.start)) {
+  const ResolvedQuery resolved = resolveQuery(medium, query);
+  if (resolved.empty) {
     return answer;
   }
-
-  SunlitRay segment = geometry.sunlit;
-  segment.stretch.length = whole ? ray.extent : query.distance_m - ray.start;
+  const SunlitRay segment = makeSunlitRay(medium, query, resolved);
   Estimate transmittance{answer.value.transmittance, {}};
   if (segment.stretch.length > 0.0) {
     const SingleScattering scattering(medium, segment, tolerance);
@@ -254,7 +244,7 @@ ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, 
   }
   answer.value.transmittance = transmittance.value;
   answer.standardError.transmittance = transmittance.error;
-  answer.value.hitsGround = whole && ray.hitsGround;
+  answer.value.hitsGround = resolved.endsOnGround;
   if (answer.value.hitsGround) {
     const Estimate ground =
         groundRadiance(medium, segment, transmittance, depthTolerance(tolerance));

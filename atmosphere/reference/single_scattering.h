@@ -2,7 +2,8 @@
 #pragma once
 
 #include <alpenglow/reference.h>
-#include <atmosphere/model/physics_cpp.h>
+
+#include "atmosphere/model/physics_cpp.h"
 
 namespace alpenglow::reference {
 

@@ -1,7 +1,6 @@
-#include <atmosphere/reference/optical_depth.h>
-
 #include <cmath>
 
+#include "atmosphere/reference/optical_depth.h"
 #include "test_atmospheres.h"
 
 namespace alpenglow::reference {

@@ -1,7 +1,8 @@
-#include <atmosphere/reference/quadrature.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+
+#include "atmosphere/reference/quadrature.h"
 
 namespace alpenglow::reference {
 namespace {

@@ -1,7 +1,6 @@
-#include <atmosphere/reference/single_scattering.h>
-
 #include <cmath>
 
+#include "atmosphere/reference/single_scattering.h"
 #include "test_atmospheres.h"
 
 namespace alpenglow::reference {
