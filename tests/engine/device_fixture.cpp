@@ -1,0 +1,119 @@
+#include "tests/engine/device_fixture.h"
+
+#include <dlfcn.h>
+
+#include <mutex>
+
+namespace alpenglow::testing {
+namespace {
+
+/// Messages of every device of the program since the last `take`.
+class Messages {
+ public:
+  void add(std::string_view message) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    messages_.emplace_back(message);
+  }
+  std::vector<std::string> take() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return std::exchange(messages_, {});
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::string> messages_;
+};
+
+Messages& messages() {
+  static Messages instance;
+  return instance;
+}
+
+std::unique_ptr<headless::Device> createDevice(headless::RequirementsFn requirements,
+                                               std::string* error) {
+  // A driver that is unloaded again takes with it the names that a leak checker needs to tell its
+  // memory from ours. Missing where another driver is used: then nothing is pinned.
+  (void)dlopen("libvulkan_lvp.so", RTLD_NOW | RTLD_NODELETE);
+  headless::DeviceOptions options;
+  options.validation = true;
+  options.requirements = std::move(requirements);
+  options.onValidationMessage = [](std::string_view message) { messages().add(message); };
+  return headless::Device::create(options, error);
+}
+
+std::unique_ptr<headless::Device>& sharedDevice() {
+  static std::unique_ptr<headless::Device> instance;
+  return instance;
+}
+
+/// Destroys the shared device while a failure still counts.
+class SharedDeviceEnvironment : public ::testing::Environment {
+ public:
+  void TearDown() override {
+    sharedDevice().reset();
+    for (const std::string& message : messages().take()) {
+      ADD_FAILURE() << "Validation, as the device went: " << message;
+    }
+  }
+};
+
+[[maybe_unused]] const auto* const kEnvironment =
+    ::testing::AddGlobalTestEnvironment(new SharedDeviceEnvironment);
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+}  // namespace
+
+void DeviceTest::SetUp() {
+  if (sharedDevice() == nullptr) {
+    std::string error;
+    sharedDevice() = createDevice(nullptr, &error);
+    ASSERT_NE(sharedDevice(), nullptr) << error;
+  }
+}
+
+void DeviceTest::TearDown() {
+  const std::vector<std::string> came = messages().take();
+  for (const std::string& message : came) {
+    bool known = false;
+    for (const std::string& part : expected_) known |= contains(message, part);
+    if (!known) ADD_FAILURE() << "Validation: " << message;
+  }
+  for (const std::string& part : expected_) {
+    bool seen = false;
+    for (const std::string& message : came) seen |= contains(message, part);
+    if (!seen) ADD_FAILURE() << "Validation was expected to say \"" << part << "\", but didn't.";
+  }
+}
+
+headless::Device& DeviceTest::device() { return *sharedDevice(); }
+
+ContextDesc DeviceTest::contextDesc() {
+  ContextDesc desc = device().contextDesc();
+  desc.user = &diagnostics_;
+  desc.diagnostic = [](void* user, const Diagnostic& diagnostic) {
+    static_cast<std::vector<std::string>*>(user)->emplace_back(diagnostic.message);
+  };
+  return desc;
+}
+
+std::unique_ptr<headless::Device> DeviceTest::makeDevice(headless::RequirementsFn requirements) {
+  std::string error;
+  std::unique_ptr<headless::Device> made = createDevice(std::move(requirements), &error);
+  if (made == nullptr) ADD_FAILURE() << error;
+  return made;
+}
+
+void DeviceTest::run(const std::function<bool(VkCommandBuffer)>& record) {
+  std::string error = "The recording function returned false.";
+  ASSERT_TRUE(device().run(record, &error)) << error;
+}
+
+const std::string& DeviceTest::lastDiagnostic() const {
+  static const std::string kNone;
+  return diagnostics_.empty() ? kNone : diagnostics_.back();
+}
+
+}  // namespace alpenglow::testing
