@@ -9,7 +9,8 @@ constexpr PassIo kPassIo[kPassKindCount] = {
     {{kNoImage}, {kOpticalDepth, kNoImage, kNoImage}, false},
     {{kOpticalDepth, kNoImage}, {kDeltaIrradiance, kIrradiance, kNoImage}, false},
     {{kOpticalDepth, kNoImage}, {kDeltaScattering, kDeltaMie, kScattering}, false},
-    {{kOpticalDepth, kDeltaIrradiance, kDeltaScattering, kDeltaMie, kNoImage},
+    {{kDeltaScattering, kDeltaMie, kNoImage}, {kIncident, kIncidentMie, kNoImage}, false},
+    {{kOpticalDepth, kDeltaIrradiance, kIncident, kIncidentMie, kNoImage},
      {kDeltaSource, kNoImage, kNoImage},
      false},
     {{kDeltaScattering, kDeltaMie, kNoImage}, {kDeltaIrradiance, kIrradiance, kNoImage}, true},
@@ -26,8 +27,10 @@ uint64_t unitsPerTexel(PassKind kind, bool firstOrder) {
       return 1;
     case PassKind::SingleScattering:
       return 51 * 3;
+    case PassKind::IncidentRadiance:
+      return 4;
     case PassKind::ScatteringDensity:
-      return 16 * 32 * (firstOrder ? 5 : 3);
+      return kSphereTheta * 2 * kSphereTheta * (firstOrder ? 2 : 1) * 3 / 2;  // half see the ground
     case PassKind::DiffuseIrradiance:
       return 16 * 64 * (firstOrder ? 4 : 2);
     case PassKind::MultipleScattering:
@@ -56,6 +59,10 @@ Pass makePass(const TableSizes& sizes, PassKind kind, uint32_t order, const char
       pass.width = sizes.irradianceMuS;
       pass.height = pass.rows = sizes.irradianceR;
       break;
+    case PassKind::IncidentRadiance:
+      pass.width = sizes.scatteringNu * kSphereTheta;
+      pass.height = pass.rows = sizes.scatteringMuS * sizes.scatteringR;
+      break;
     default:
       pass.width = sizes.scatteringMuS * sizes.scatteringNu;
       pass.height = sizes.scatteringMu;
@@ -76,6 +83,7 @@ std::vector<Pass> standardPasses(const TableSizes& sizes, uint32_t orders) {
   passes.push_back(makePass(sizes, PassKind::DirectIrradiance, 1, "dE"));
   passes.push_back(makePass(sizes, PassKind::SingleScattering, 1, "dS"));
   for (uint32_t order = 2; order <= orders; ++order) {
+    passes.push_back(makePass(sizes, PassKind::IncidentRadiance, order, "dL"));
     passes.push_back(makePass(sizes, PassKind::ScatteringDensity, order, "dJ"));
     passes.push_back(makePass(sizes, PassKind::DiffuseIrradiance, order, "dE"));
     passes.push_back(makePass(sizes, PassKind::MultipleScattering, order, "dS"));

@@ -4,6 +4,8 @@
 #include <alpenglow/shaders/diffuse_irradiance_rgba32f.h>
 #include <alpenglow/shaders/direct_irradiance_rgba16f.h>
 #include <alpenglow/shaders/direct_irradiance_rgba32f.h>
+#include <alpenglow/shaders/incident_radiance_rgba16f.h>
+#include <alpenglow/shaders/incident_radiance_rgba32f.h>
 #include <alpenglow/shaders/multiple_scattering_rgba16f.h>
 #include <alpenglow/shaders/multiple_scattering_rgba32f.h>
 #include <alpenglow/shaders/optical_depth_rgba16f.h>
@@ -36,6 +38,8 @@ Shader shaderOf(PassKind kind, TableFormat format) {
       return ALPENGLOW_SHADER(kDirectIrradiance);
     case PassKind::SingleScattering:
       return ALPENGLOW_SHADER(kSingleScattering);
+    case PassKind::IncidentRadiance:
+      return ALPENGLOW_SHADER(kIncidentRadiance);
     case PassKind::ScatteringDensity:
       return ALPENGLOW_SHADER(kScatteringDensity);
     case PassKind::DiffuseIrradiance:
@@ -63,7 +67,8 @@ constexpr VkDescriptorSetLayoutBinding kTableLayoutBindings[kTableBindings] = {
     binding(3, kSampled, kBoth), binding(4, kSampled, kBoth)};
 constexpr VkDescriptorSetLayoutBinding kInputLayoutBindings[kInputBindings] = {
     binding(0, kUniform, kCompute), binding(1, kSampled, kCompute), binding(2, kSampled, kCompute),
-    binding(3, kSampled, kCompute), binding(4, kSampled, kCompute), binding(5, kSampled, kCompute)};
+    binding(3, kSampled, kCompute), binding(4, kSampled, kCompute), binding(5, kSampled, kCompute),
+    binding(6, kSampled, kCompute), binding(7, kSampled, kCompute)};
 constexpr VkDescriptorSetLayoutBinding kOutputLayoutBindings[kMaxOutputs] = {
     binding(0, kStorage, kCompute), binding(1, kStorage, kCompute), binding(2, kStorage, kCompute)};
 
@@ -132,8 +137,9 @@ void Resources::destroy(Resources* resources) {
 Status Resources::pipeline(PassKind kind, TableFormat format, bool firstOrder, MieStorage mie,
                            VkPipeline* out) {
   // Only the passes that look at a constant come in variants.
-  const bool readsOrderBefore =
-      kind == PassKind::ScatteringDensity || kind == PassKind::DiffuseIrradiance;
+  const bool readsOrderBefore = kind == PassKind::IncidentRadiance ||
+                                kind == PassKind::ScatteringDensity ||
+                                kind == PassKind::DiffuseIrradiance;
   const Key key = {kind, format, readsOrderBefore && firstOrder,
                    kind == PassKind::SingleScattering ? mie : MieStorage::Full};
   const std::scoped_lock lock(mutex_);

@@ -17,7 +17,7 @@ struct TileConstants {
 };
 
 inline constexpr uint32_t kTableBindings = 5;  ///< Uniforms and four sampled tables.
-inline constexpr uint32_t kInputBindings = 6;  ///< Uniforms and five sampled images.
+inline constexpr uint32_t kInputBindings = 8;  ///< Uniforms and seven sampled images.
 
 /// Made with the context, destroyed with it. Thread-safe.
 class Resources {

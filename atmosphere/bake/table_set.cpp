@@ -91,6 +91,14 @@ Status checkTableDesc(const engine::Device& device, const TableDesc& desc) {
                        static_cast<unsigned long long>(uint64_t(s.scatteringMuS) * s.scatteringNu),
                        most3D);
   }
+  const uint64_t side = uint64_t(s.scatteringMuS) * s.scatteringR;
+  if (side > most2D) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "The table sizes scatteringMuS %u times scatteringR %u are %llu rows of a "
+                       "bake, but this device's 2D images end at %u.",
+                       s.scatteringMuS, s.scatteringR, static_cast<unsigned long long>(side),
+                       most2D);
+  }
   return Status::Ok;
 }
 
@@ -149,22 +157,25 @@ bool Tables::persistent(uint32_t image) const {
 
 Status Tables::makeImages() {
   static constexpr const char* kNames[bake::kImageCount] = {
-      "Alpenglow T",  "Alpenglow E",  "Alpenglow S", "Alpenglow single Mie",
-      "Alpenglow dE", "Alpenglow dS", "Alpenglow dJ"};
+      "Alpenglow T",  "Alpenglow E",  "Alpenglow S",  "Alpenglow single Mie", "Alpenglow dE",
+      "Alpenglow dS", "Alpenglow dJ", "Alpenglow dL", "Alpenglow dL Mie"};
   const TableSizes& s = desc_.sizes;
   const VkFormat format = bake::formatOf(desc_.format);
   const VkExtent3D scattering = {s.scatteringMuS * s.scatteringNu, s.scatteringMu, s.scatteringR};
+  const VkExtent3D incident = {s.scatteringNu * bake::kSphereTheta, s.scatteringMuS * s.scatteringR,
+                               1};
   const VkExtent3D irradiance = {s.irradianceMuS, s.irradianceR, 1};
   engine::Image* persistentImages[bake::kImageCount];
   engine::Image* scratchImages[bake::kImageCount];
   uint32_t persistentCount = 0, scratchCount = 0;
   for (uint32_t i = 0; i < bake::kImageCount; ++i) {
-    const bool is2D =
-        i == bake::kOpticalDepth || i == bake::kIrradiance || i == bake::kDeltaIrradiance;
+    const bool isIncident = i == bake::kIncident || i == bake::kIncidentMie;
+    const bool isIrradiance = i == bake::kIrradiance || i == bake::kDeltaIrradiance;
+    const bool is2D = i == bake::kOpticalDepth || isIncident || isIrradiance;
     engine::ImageDesc desc;
     desc.type = is2D ? VK_IMAGE_TYPE_2D : VK_IMAGE_TYPE_3D;
     desc.format = format;
-    desc.extent = is2D ? irradiance : scattering;
+    desc.extent = isIncident ? incident : isIrradiance ? irradiance : scattering;
     if (i == bake::kOpticalDepth) {
       desc.format = bake::formatOf(bake::opticalDepthFormat(device_, desc_.format));
       desc.extent = {s.transmittanceMu, s.transmittanceR, 1};
@@ -250,7 +261,9 @@ Status Tables::writeDescriptors() {
       .sampledImage(2, images_[bake::kDeltaIrradiance].view, sampler)
       .sampledImage(3, images_[bake::kDeltaScattering].view, sampler)
       .sampledImage(4, images_[bake::kDeltaMie].view, sampler)
-      .sampledImage(5, images_[bake::kDeltaSource].view, sampler);
+      .sampledImage(5, images_[bake::kDeltaSource].view, sampler)
+      .sampledImage(6, images_[bake::kIncident].view, sampler)
+      .sampledImage(7, images_[bake::kIncidentMie].view, sampler);
   status = input.flush(device_);
   for (uint32_t kind = 0; kind < bake::kPassKindCount && status == Status::Ok; ++kind) {
     const bake::PassIo& io = bake::passIo(static_cast<bake::PassKind>(kind));

@@ -17,12 +17,16 @@ layout(set = 0, binding = 2) uniform sampler2D deltaIrradianceTable;
 layout(set = 0, binding = 3) uniform sampler3D deltaScatteringTable;
 layout(set = 0, binding = 4) uniform sampler3D deltaMieTable;
 layout(set = 0, binding = 5) uniform sampler3D deltaSourceTable;
+layout(set = 0, binding = 6) uniform sampler2D incidentTable;
+layout(set = 0, binding = 7) uniform sampler2D incidentMieTable;
 
 Spectrum readOpticalDepth(vec2 uv) { return textureLod(opticalDepthTable, uv, 0.0).rgb; }
 Spectrum readDeltaIrradiance(vec2 uv) { return textureLod(deltaIrradianceTable, uv, 0.0).rgb; }
 Spectrum readDeltaRadiance(vec3 uvw) { return textureLod(deltaScatteringTable, uvw, 0.0).rgb; }
 Spectrum readDeltaMie(vec3 uvw) { return textureLod(deltaMieTable, uvw, 0.0).rgb; }
 Spectrum readDeltaSource(vec3 uvw) { return textureLod(deltaSourceTable, uvw, 0.0).rgb; }
+Spectrum readIncident(vec2 uv) { return textureLod(incidentTable, uv, 0.0).rgb; }
+Spectrum readIncidentMie(vec2 uv) { return textureLod(incidentMieTable, uv, 0.0).rgb; }
 
 #include "physics/lookup.glsl"
 

@@ -10,5 +10,7 @@ void main() {
   if (texel.z < 0) return;
   ScatteringTexel s = scatteringTexel(texel);
   imageStore(deltaSource, texel,
-             vec4(scatteringDensity(medium, shape, s.h, s.mu, s.muS, s.nu), 0.0));
+             vec4(scatteringDensity(medium, shape, float(texel.x % int(shape.scatteringMuS)),
+                                    float(texel.z), s.h, s.mu, s.muS, s.nu),
+                  0.0));
 }

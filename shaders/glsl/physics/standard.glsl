@@ -5,6 +5,7 @@
 //   Spectrum readDeltaRadiance(Real3 uvw), readDeltaMie(uvw)     dS of the order before; its order 1 is
 //                                                                Rayleigh and Mie without phase
 //   Spectrum readDeltaSource(Real3 uvw)                          dJ
+//   Spectrum readIncident(Real2 uv), readIncidentMie(Real2 uv)   dS at the zenith angles of J
 // ALPENGLOW_FIRST_ORDER: true when the order before is single scattering.
 
 const int kTransmittanceTrapezoids = 500;
@@ -12,15 +13,18 @@ const int kRayTrapezoids = 50;
 const int kSphereTheta = 16;  // zenith angles over the whole sphere; twice as many azimuths
 const int kHemisphereTheta = 16;  // over the upper half; four times as many azimuths
 
-// T(x, y), equation 5, between x and the point at distance d of its ray, from the table: a quotient of
-// transmittances towards the top, taken as a difference of optical depths. A ray that hits the
-// ground is looked up in reverse, so that neither end looks below its horizon.
-ALPENGLOW_FN Spectrum transmittanceBetween(IN(Medium) m, IN(TableShape) shape, Real h, Real mu,
-                                           Real hd, Real muD, bool hitsGround) {
-  Real2 here = opticalDepthCoordinate(m, shape, h, hitsGround ? -mu : mu);
-  Real2 there = opticalDepthCoordinate(m, shape, hd, hitsGround ? -muD : muD);
-  Spectrum difference = readOpticalDepth(here) - readOpticalDepth(there);
-  return exp(-max(hitsGround ? -difference : difference, SPECTRUM(REAL(0.0))));
+// Optical depth from a point of a ray towards the top; a ray that hits the ground is looked up in
+// reverse, so that it does not look below its horizon.
+ALPENGLOW_FN Spectrum opticalDepthAlong(IN(Medium) m, IN(TableShape) shape, Real h, Real mu,
+                                        bool hitsGround) {
+  return readOpticalDepth(opticalDepthCoordinate(m, shape, h, hitsGround ? -mu : mu));
+}
+
+// T(x, y), equation 5, from the opticalDepthAlong of x and of y further along the ray: a quotient of
+// transmittances towards the top, taken as a difference of optical depths.
+ALPENGLOW_FN Spectrum transmittanceBetween(Spectrum depthX, Spectrum depthY, bool hitsGround) {
+  Spectrum difference = hitsGround ? depthY - depthX : depthX - depthY;
+  return exp(-max(difference, SPECTRUM(REAL(0.0))));
 }
 
 // E[L0]: direct irradiance on the ground, the dE that order 2 starts from.
@@ -34,13 +38,15 @@ ALPENGLOW_FN void singleScattering(IN(Medium) m, IN(TableShape) shape, Real h, R
                                    OUT(Spectrum) mie) {
   Real dx = (hitsGround ? distanceToGround(m, h, mu) : distanceToTop(m, h, mu)) /
             Real(kRayTrapezoids);
+  Spectrum depthX = opticalDepthAlong(m, shape, h, mu, hitsGround);
   rayleigh = SPECTRUM(REAL(0.0));
   mie = SPECTRUM(REAL(0.0));
   for (int i = 0; i <= kRayTrapezoids; ++i) {
     Real t = Real(i) * dx;
     Real ht = min(altitudeAt(m, h, mu, t), m.thickness);
     Real muT = muAt(m, h, mu, t, ht);
-    Spectrum light = transmittanceBetween(m, shape, h, mu, ht, muT, hitsGround) *
+    Spectrum depthY = opticalDepthAlong(m, shape, ht, muT, hitsGround);
+    Spectrum light = transmittanceBetween(depthX, depthY, hitsGround) *
                      transmittanceToSun(m, shape, ht, muSAt(m, h, muS, nu, t, ht));
     light *= (i == 0 || i == kRayTrapezoids) ? REAL(0.5) * dx : dx;
     rayleigh += light * rayleighDensity(m, ht);
@@ -77,43 +83,105 @@ ALPENGLOW_FN Real2 turned(Real2 direction, Real2 angle) {
                direction[1] * angle[0] + direction[0] * angle[1]);
 }
 
+// Zenith angle i of J's quadrature.
+ALPENGLOW_FN Real sphereTheta(int i) {
+  return (Real(i) + REAL(0.5)) * REAL(ALPENGLOW_PI) / Real(kSphereTheta);
+}
+
+// J reads dS at r and mu_s of its own texel and at kSphereTheta zenith angles: all on nodes but nu. So
+// dS is first interpolated to those angles, into a small 2D table with x = nu + nus * i and
+// y = mu_s + muSs * r (texels), and J reads that: the same sums, of a quarter of the fetches' time.
+ALPENGLOW_FN Real2 incidentCoordinate(IN(TableShape) shape, Real muSTexel, Real rTexel, int i,
+                                      Real nu) {
+  Real x = Real(i) + insetCoordinate(scatteringUnitNu(nu), shape.scatteringNu);
+  Real y = muSTexel + shape.scatteringMuS * rTexel + REAL(0.5);
+  return Real2(x / Real(kSphereTheta), y / (shape.scatteringMuS * shape.scatteringR));
+}
+
+// Radiance of the order before at a node nu of direction i, and its Mie part if that is kept apart.
+ALPENGLOW_FN void incidentRadiance(IN(Medium) m, IN(TableShape) shape, Real h, Real muS, Real nu,
+                                   int i, OUT(Spectrum) radiance, OUT(Spectrum) mie) {
+  Real cosTheta = cos(sphereTheta(i));
+  Real2 slice = nuSlice(shape, nu);
+  Real3 lower = scatteringCoordinate(m, shape, h, cosTheta, muS, rayHitsGround(m, h, cosTheta)) +
+                Real3(slice[0], REAL(0.0), REAL(0.0));
+  Real3 upper = lower + Real3(REAL(1.0) / shape.scatteringNu, REAL(0.0), REAL(0.0));
+  radiance = mix(readDeltaRadiance(lower), readDeltaRadiance(upper), slice[1]);
+  mie = mix(readDeltaMie(lower), readDeltaMie(upper), slice[1]);
+}
+
+// What one texel of J shares between its directions.
+struct DensityPoint {
+  Real h;
+  Real muSTexel;
+  Real rTexel;
+  Real muS;
+  Real3 view;
+  Real3 sun;
+  Spectrum betaR;
+  Spectrum betaM;
+};
+
+// The ring of zenith angle i: light that arrives from its azimuths and is scattered towards the view.
+// `withGround` is a literal: rings above the horizon have no code for the ground.
+ALPENGLOW_FN Spectrum densityRing(IN(Medium) m, IN(TableShape) shape, IN(DensityPoint) p, int i,
+                                  bool withGround) {
+  Real step = REAL(ALPENGLOW_PI) / Real(kSphereTheta);
+  Real cosTheta = cos(sphereTheta(i));
+  Real sinTheta = sin(sphereTheta(i));
+  Real dGround = REAL(0.0);
+  Spectrum ground = SPECTRUM(REAL(0.0));
+  if (withGround) {
+    dGround = distanceToGround(m, p.h, cosTheta);
+    Real muGround = muAt(m, p.h, cosTheta, dGround, REAL(0.0));
+    ground = m.groundAlbedo / REAL(ALPENGLOW_PI) *
+             transmittanceBetween(opticalDepthAlong(m, shape, p.h, cosTheta, true),
+                                  opticalDepthAlong(m, shape, REAL(0.0), muGround, true), true);
+  }
+  Real2 azimuth = Real2(cos(REAL(0.5) * step), sin(REAL(0.5) * step));
+  Real2 turn = Real2(cos(step), sin(step));
+  Spectrum sum = SPECTRUM(REAL(0.0));
+  for (int j = 0; j < 2 * kSphereTheta; ++j) {
+    Real3 w = Real3(azimuth[0] * sinTheta, azimuth[1] * sinTheta, cosTheta);
+    azimuth = turned(azimuth, turn);
+    Real nuSun = dot(p.sun, w);
+    Real nuView = dot(p.view, w);
+    Real2 at = incidentCoordinate(shape, p.muSTexel, p.rTexel, i, nuSun);
+    Spectrum arriving = readIncident(at);
+    if (ALPENGLOW_FIRST_ORDER) {
+      arriving = arriving * rayleighPhase(nuSun) +
+                 readIncidentMie(at) * miePhase(m.mieAsymmetry, nuSun);
+    }
+    if (withGround) {
+      Real muSGround = muSAt(m, p.h, p.muS, nuSun, dGround, REAL(0.0));
+      arriving +=
+          ground * readDeltaIrradiance(irradianceCoordinate(m, shape, REAL(0.0), muSGround));
+    }
+    sum += arriving * (p.betaR * rayleighPhase(nuView) + p.betaM * miePhase(m.mieAsymmetry, nuView));
+  }
+  return sum * (step * step * sinTheta);
+}
+
 // J[T alpha / pi dE + dS], equation 7, times the thickness of the atmosphere (per metre it would be
 // below the smallest half float).
-ALPENGLOW_FN Spectrum scatteringDensity(IN(Medium) m, IN(TableShape) shape, Real h, Real mu,
-                                        Real muS, Real nu) {
-  Real step = REAL(ALPENGLOW_PI) / Real(kSphereTheta);
-  Real3 view = Real3(sqrt(max(REAL(1.0) - mu * mu, REAL(0.0))), REAL(0.0), mu);
-  Real3 sun = sunInViewFrame(mu, muS, nu);
-  Real2 turn = Real2(cos(step), sin(step));
-  Spectrum betaR = m.rayleighScattering * rayleighDensity(m, h);
-  Spectrum betaM = m.mieScattering * mieDensity(m, h);
-  Spectrum sum = SPECTRUM(REAL(0.0));
+ALPENGLOW_FN Spectrum scatteringDensity(IN(Medium) m, IN(TableShape) shape, Real muSTexel,
+                                        Real rTexel, Real h, Real mu, Real muS, Real nu) {
+  DensityPoint p;
+  p.h = h;
+  p.muSTexel = muSTexel;
+  p.rTexel = rTexel;
+  p.muS = muS;
+  p.view = Real3(sqrt(max(REAL(1.0) - mu * mu, REAL(0.0))), REAL(0.0), mu);
+  p.sun = sunInViewFrame(mu, muS, nu);
+  p.betaR = m.rayleighScattering * rayleighDensity(m, h);
+  p.betaM = m.mieScattering * mieDensity(m, h);
+  int skyRings = 0;
   for (int i = 0; i < kSphereTheta; ++i) {
-    Real theta = (Real(i) + REAL(0.5)) * step;
-    Real cosTheta = cos(theta);
-    Real sinTheta = sin(theta);
-    bool hitsGround = rayHitsGround(m, h, cosTheta);
-    Real dGround = distanceToGround(m, h, cosTheta);
-    Real muGround = muAt(m, h, cosTheta, dGround, REAL(0.0));
-    Spectrum ground =
-        (hitsGround ? REAL(1.0) : REAL(0.0)) * m.groundAlbedo / REAL(ALPENGLOW_PI) *
-        transmittanceBetween(m, shape, h, cosTheta, REAL(0.0), muGround, true);
-    Real3 plane = scatteringCoordinate(m, shape, h, cosTheta, muS, hitsGround);
-    Real2 azimuth = Real2(cos(REAL(0.5) * step), sin(REAL(0.5) * step));
-    for (int j = 0; j < 2 * kSphereTheta; ++j) {
-      Real3 w = Real3(azimuth[0] * sinTheta, azimuth[1] * sinTheta, cosTheta);
-      azimuth = turned(azimuth, turn);
-      Real nuSun = dot(sun, w);
-      Real nuView = dot(view, w);
-      Real muSGround = muSAt(m, h, muS, nuSun, hitsGround ? dGround : REAL(0.0), REAL(0.0));
-      Spectrum arriving =
-          ground * readDeltaIrradiance(irradianceCoordinate(m, shape, REAL(0.0), muSGround)) +
-          deltaRadiance(m, shape, plane, nuSun);
-      sum += arriving *
-             (betaR * rayleighPhase(nuView) + betaM * miePhase(m.mieAsymmetry, nuView)) *
-             (step * step * sinTheta);
-    }
+    skyRings += rayHitsGround(m, h, cos(sphereTheta(i))) ? 0 : 1;
   }
+  Spectrum sum = SPECTRUM(REAL(0.0));
+  for (int i = 0; i < skyRings; ++i) sum += densityRing(m, shape, p, i, false);
+  for (int i = skyRings; i < kSphereTheta; ++i) sum += densityRing(m, shape, p, i, true);
   return sum * m.thickness;
 }
 
@@ -145,6 +213,7 @@ ALPENGLOW_FN Spectrum multipleScattering(IN(Medium) m, IN(TableShape) shape, Rea
   Real dx = (hitsGround ? distanceToGround(m, h, mu) : distanceToTop(m, h, mu)) /
             Real(kRayTrapezoids);
   Real2 slice = nuSlice(shape, nu);  // nu is constant along a ray
+  Spectrum depthX = opticalDepthAlong(m, shape, h, mu, hitsGround);
   Spectrum sum = SPECTRUM(REAL(0.0));
   for (int i = 0; i <= kRayTrapezoids; ++i) {
     Real t = Real(i) * dx;
@@ -154,7 +223,8 @@ ALPENGLOW_FN Spectrum multipleScattering(IN(Medium) m, IN(TableShape) shape, Rea
                   scatteringCoordinate(m, shape, ht, muT, muSAt(m, h, muS, nu, t, ht), hitsGround);
     Real3 upper = lower + Real3(REAL(1.0) / shape.scatteringNu, REAL(0.0), REAL(0.0));
     Spectrum source = mix(readDeltaSource(lower), readDeltaSource(upper), slice[1]);
-    sum += transmittanceBetween(m, shape, h, mu, ht, muT, hitsGround) * source *
+    Spectrum depthY = opticalDepthAlong(m, shape, ht, muT, hitsGround);
+    sum += transmittanceBetween(depthX, depthY, hitsGround) * source *
            ((i == 0 || i == kRayTrapezoids) ? REAL(0.5) * dx : dx);
   }
   return sum / m.thickness;
