@@ -1,0 +1,17 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// One call into each file of the physics, so that a compiler can't drop what it has not checked.
+#include "physics/physics.glsl"
+
+layout(local_size_x = 1) in;
+layout(set = 0, binding = 0, std140) uniform Block { Medium medium; };
+layout(set = 0, binding = 1, std430) buffer Result { vec4 result[]; };
+
+void main() {
+  Ray ray = makeRay(medium, 2.0, 0.1, 0.99, 0.5, 0.3);
+  Spectrum depth = opticalDepthToTop(medium, ray.h, ray.mu, 500) +
+                   opticalDepthOfSegment(medium, ray.h, ray.mu, ray.extent);
+  float u = scatteringUnitMu(medium, ray.h, ray.mu, ray.hitsGround);
+  result[0] = vec4(depth, u);
+  result[1] = vec4(toneMapFilmic(depth), miePhase(medium.mieAsymmetry, ray.nu));
+}

@@ -1,0 +1,22 @@
+// Compiled by compile_physics.cmake with PRECISION = physics_f32 or physics_f64: the same calls as
+// physics.comp, where every literal and conversion must have the precision's type.
+#include <type_traits>
+
+#include "atmosphere/model/physics_cpp.h"
+
+namespace physics = alpenglow::PRECISION;
+using physics::Real;
+
+static_assert(std::is_same_v<Real, float> || std::is_same_v<Real, double>);
+static_assert(std::is_same_v<decltype(physics::rayleighPhase(Real(0))), Real>);
+static_assert(
+    std::is_same_v<decltype(physics::extinction(physics::Medium{}, Real(0))), physics::Spectrum>);
+
+physics::Spectrum callEachFile(const physics::Medium& medium) {
+  const physics::Ray ray =
+      physics::makeRay(medium, Real(2), Real(0.1), Real(0.99), Real(0.5), Real(0.3));
+  const physics::Spectrum depth = physics::opticalDepthToTop(medium, ray.h, ray.mu, 500) +
+                                  physics::opticalDepthOfSegment(medium, ray.h, ray.mu, ray.extent);
+  const Real u = physics::scatteringUnitMu(medium, ray.h, ray.mu, ray.hitsGround);
+  return physics::toneMapFilmic(depth) * (u + physics::miePhase(medium.mieAsymmetry, ray.nu));
+}
