@@ -1,0 +1,27 @@
+// Atmosphere files (docs/schema/atmosphere.schema.json): the parameters of an atmosphere as JSON,
+// lengths in metres, angles in degrees.
+#pragma once
+
+#include <alpenglow/io/result.h>
+#include <alpenglow/parameters.h>
+
+#include <string>
+
+namespace alpenglow::io {
+
+/// Parses and validates. `name` is how sentences call the text.
+Result<Parameters> parseAtmosphere(const std::string& text, const std::string& name);
+Result<Parameters> readAtmosphere(const std::string& path);
+
+/// The file's text; reading it back gives the same parameters, bit for bit.
+std::string formatAtmosphere(const Parameters& parameters);
+Done writeAtmosphere(const std::string& path, const Parameters& parameters);
+
+/// A preset if one has this name, else the atmosphere file of this name.
+Result<Parameters> findAtmosphere(const std::string& nameOrPath);
+
+/// Empty when both describe the same atmosphere, else the first field that differs with both
+/// values: "mie.asymmetry is 0.76 and 0.8".
+std::string firstDifference(const Parameters& a, const Parameters& b);
+
+}  // namespace alpenglow::io

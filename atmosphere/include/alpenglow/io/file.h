@@ -1,0 +1,43 @@
+// Whole files: read with a limit, written whole or not at all.
+#pragma once
+
+#include <alpenglow/io/result.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+namespace alpenglow::io {
+
+/// Reads a file that is at most `limit` bytes long.
+Result<std::string> readFile(const std::string& path, uint64_t limit);
+
+/// Writes `size` bytes. A regular file (or a new one) is written beside its place and renamed, so
+/// readers see the old or the new bytes, never a part; a symbolic link is followed. A device or a
+/// pipe is written directly.
+Done writeFile(const std::string& path, const void* data, size_t size);
+
+/// Says early, before hours of work, that writeFile could not write there: the folder is missing or
+/// read-only, or `path` is a folder. Writes nothing.
+Done checkOutput(const std::string& path);
+
+/// A temporary file beside the regular file that it will replace. Removed by the destructor unless
+/// committed. For writers that need a path of their own.
+class PendingFile {
+ public:
+  static Result<PendingFile> create(const std::string& target);
+  PendingFile(PendingFile&& other) noexcept;
+  PendingFile& operator=(PendingFile&&) = delete;
+  ~PendingFile();
+  const std::string& path() const { return path_; }
+  /// Flushes to the disk and renames over the target.
+  Done commit();
+
+ private:
+  PendingFile() = default;
+  std::string path_;
+  std::string target_;
+  std::string shown_;  // The target as the caller spelt it, for sentences.
+};
+
+}  // namespace alpenglow::io

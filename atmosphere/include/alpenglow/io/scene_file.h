@@ -1,0 +1,64 @@
+// Scene files (docs/schema/scene.schema.json): an atmosphere, a sun, a camera and a picture.
+#pragma once
+
+#include <alpenglow/io/result.h>
+#include <alpenglow/io/tone_map.h>
+#include <alpenglow/view.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace alpenglow::io {
+
+/// About the camera's local vertical; radians. Files hold degrees.
+struct SceneSun {
+  double elevation = 0.0;   ///< Above the horizontal.
+  double azimuth = 0.0;     ///< Clockwise from north. Default 0.
+  double discRadius = 0.0;  ///< 0 draws no disc. Default 0.2667 degrees.
+};
+
+/// Radians. Each field may be left out of the file; the values here are the defaults.
+struct SceneCamera {
+  double latitude = 0.0;
+  double longitude = 0.0;
+  double altitude_m = 2.0;  ///< Below 0 is drawn as 0.
+  double heading = 0.0;     ///< Clockwise from north.
+  double pitch = 0.0;       ///< Above the horizontal.
+  double roll = 0.0;        ///< Clockwise.
+  Projection projection = Projection::Perspective;
+  double fov = 0.0;  ///< Default 60 degrees, or 180 for a fisheye.
+};
+
+struct Scene {
+  Parameters atmosphere;
+  SceneSun sun;
+  SceneCamera camera;
+  std::string albedoMap;  ///< A path that can be opened from here; empty: the uniform albedo.
+  uint32_t width = 1024;
+  uint32_t height = 768;
+  std::optional<double> exposure;  ///< A factor; none: automatic.
+  ToneMap toneMap = ToneMap::Filmic;
+  std::optional<Solver> solver;    ///< None: the default.
+  std::optional<uint32_t> orders;  ///< None: the solver's default.
+};
+
+/// Most pixels along a side of a picture, and most events of a path.
+inline constexpr uint32_t kMaxPictureSide = 16384;
+inline constexpr uint32_t kMaxOrders = 64;
+
+/// Reads and checks everything, the atmosphere included; paths in the file are relative to it.
+Result<Scene> readScene(const std::string& path);
+/// As readScene, for text; `folder` is where its paths start.
+Result<Scene> parseScene(const std::string& text, const std::string& name,
+                         const std::string& folder);
+
+/// What an ATMOSPHERE on the command line gave: a preset's name, an atmosphere file, or a scene
+/// file whose atmosphere is meant. The last two are told apart by content.
+struct AtmosphereSource {
+  Parameters parameters;
+  std::optional<Scene> scene;  ///< Present when it was a scene file.
+};
+Result<AtmosphereSource> findAtmosphereOrScene(const std::string& nameOrPath);
+
+}  // namespace alpenglow::io

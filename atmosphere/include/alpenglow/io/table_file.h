@@ -1,0 +1,68 @@
+// Table files: the baked tables as a multi-part EXR that any EXR tool opens, with the parameters,
+// the version and a checksum of the whole file inside.
+//
+// Parts: "optical_depth", "irradiance", "scattering", and "single_mie" unless it is packed; with
+// the orders kept also "scattering_order_N", "irradiance_order_N" and "single_mie_order_1". All are
+// RGBA, half or float as baked. A 3D table is a 2D image: its slices of r stand below each other,
+// so a part's bytes are those of the table's tightly packed copy.
+#pragma once
+
+#include <alpenglow/io/result.h>
+#include <alpenglow/tables.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace alpenglow::io {
+
+/// The layout of the file; a reader refuses any other, and any other version of the library, since
+/// the tables mean what that version's shaders read from them.
+inline constexpr int kTableFileFormat = 1;
+/// Most texels along a side of a table and in a table; checked before anything is allocated.
+inline constexpr uint32_t kMaxTableSide = 4096;
+inline constexpr uint64_t kMaxTableTexels = uint64_t{1} << 26;
+
+/// One table, as recordTableReadback leaves it and recordTableUpload takes it.
+struct TablePart {
+  std::string name;
+  uint32_t width = 0;
+  uint32_t height = 0;
+  uint32_t depth = 1;
+  std::vector<uint8_t> texels;
+};
+
+struct TableFile {
+  Parameters parameters;
+  TableDesc desc;  ///< With no zero left: see resolved().
+  std::vector<TablePart> parts;
+
+  /// Null when there is none of this name.
+  const TablePart* find(const std::string& name) const;
+};
+
+/// The description with the defaults in place of zeros.
+TableDesc resolved(TableDesc desc);
+
+/// Empty, or a sentence about the first size that is out of bounds. `desc` is resolved.
+Done checkSizes(const TableDesc& desc);
+
+/// The parts that a file of this description must have, without texels.
+std::vector<TablePart> expectedParts(const TableDesc& desc);
+
+/// A size as the command line and files spell it: "256x64", "32x128x32x8" (r x mu x mu_s x nu).
+std::string transmittanceSizeText(const TableSizes& sizes);
+std::string irradianceSizeText(const TableSizes& sizes);
+std::string scatteringSizeText(const TableSizes& sizes);
+/// False, with `sizes` unchanged, when the text is not whole numbers from 1 to 4096 and "x".
+bool parseTransmittanceSize(const std::string& text, TableSizes* sizes);
+bool parseIrradianceSize(const std::string& text, TableSizes* sizes);
+bool parseScatteringSize(const std::string& text, TableSizes* sizes);
+
+/// Writes the file whole or not at all, and reads it back before it takes its place.
+Done writeTableFile(const std::string& path, const TableFile& file);
+
+/// Reads a file, checksum first. Parts of single orders are checked, but kept only if `orders`.
+Result<TableFile> readTableFile(const std::string& path, bool orders = false);
+
+}  // namespace alpenglow::io

@@ -1,0 +1,213 @@
+#include <alpenglow/io/atmosphere_file.h>
+#include <alpenglow/io/file.h>
+#include <alpenglow/io/scene_file.h>
+
+#include <filesystem>
+
+#include "atmosphere/io/atmosphere_json.h"
+
+namespace alpenglow::io {
+namespace {
+
+constexpr double kMaxAltitude_m = 1e12;
+
+std::string relativeTo(const std::string& folder, const std::string& path) {
+  return (std::filesystem::path(folder) / path).string();
+}
+
+SceneSun readSun(JsonErrors* errors, const Json& value) {
+  ObjectReader reader(errors, value, "sun.", "",
+                      {"elevation_deg", "azimuth_deg", "disc_radius_deg"});
+  SceneSun sun;
+  sun.elevation = radians(reader.number("elevation_deg", -90.0, 90.0));
+  sun.azimuth = radians(reader.numberOr("azimuth_deg", 0.0));
+  sun.discRadius = radians(reader.numberOr("disc_radius_deg", 0.2667, 0.0, 45.0));
+  return sun;
+}
+
+double readFov(JsonErrors* errors, ObjectReader* reader, Projection projection) {
+  const bool fisheye = projection == Projection::Fisheye;
+  const double fov = reader->numberOr("fov_deg", fisheye ? 180.0 : 60.0);
+  if (errors->ok() && (fov <= 0.0 || fov > 360.0 || (!fisheye && fov >= 180.0))) {
+    reader->wrong("fov_deg", fisheye ? "more than 0 and at most 360 for a fisheye"
+                                     : "more than 0 and less than 180 for a perspective");
+  }
+  return radians(fov);
+}
+
+SceneCamera readCamera(JsonErrors* errors, const Json& value) {
+  ObjectReader reader(errors, value, "camera.", "",
+                      {"latitude_deg", "longitude_deg", "altitude_m", "heading_deg", "pitch_deg",
+                       "roll_deg", "projection", "fov_deg"});
+  SceneCamera camera;
+  camera.latitude = radians(reader.numberOr("latitude_deg", 0.0, -90.0, 90.0));
+  camera.longitude = radians(reader.numberOr("longitude_deg", 0.0));
+  camera.altitude_m =
+      reader.numberOr("altitude_m", camera.altitude_m, -kMaxAltitude_m, kMaxAltitude_m);
+  camera.heading = radians(reader.numberOr("heading_deg", 0.0));
+  camera.pitch = radians(reader.numberOr("pitch_deg", 0.0, -90.0, 90.0));
+  camera.roll = radians(reader.numberOr("roll_deg", 0.0));
+  camera.projection =
+      static_cast<Projection>(reader.choice("projection", {"perspective", "fisheye"}));
+  camera.fov = readFov(errors, &reader, camera.projection);
+  return camera;
+}
+
+void readAtmosphereOf(JsonErrors* errors, const Json& value, const std::string& folder,
+                      Parameters* out) {
+  if (value.is_object()) {
+    *out = atmosphereFromJson(errors, value, "atmosphere.");
+    return;
+  }
+  const std::string name = value.get<std::string>();
+  if (findPreset(name.c_str(), out) == Status::Ok) return;
+  const std::string path = relativeTo(folder, name);
+  std::error_code code;
+  if (!std::filesystem::exists(path, code)) {
+    errors->add("field 'atmosphere' is \"" + name + "\"; there is no preset and no file '" + path +
+                "' of that name.");
+    return;
+  }
+  const Result<Parameters> parameters = readAtmosphere(path);
+  if (!parameters) {
+    if (errors->ok()) errors->first = parameters.error;
+    return;
+  }
+  *out = *parameters;
+}
+
+std::string readGround(JsonErrors* errors, const Json& value, const std::string& folder) {
+  ObjectReader reader(errors, value, "ground.", "", {"albedo_map"});
+  if (!reader.given("albedo_map")) return {};
+  const std::string path = reader.string("albedo_map");
+  return path.empty() ? path : relativeTo(folder, path);
+}
+
+void readSize(JsonErrors* errors, ObjectReader* reader, Scene* scene) {
+  if (!reader->has("size")) return;
+  const Json& size = reader->required("size");
+  uint32_t sides[2] = {};
+  bool good = size.is_array() && size.size() == 2;
+  for (size_t i = 0; good && i < 2; ++i) {
+    good = size[i].is_number_unsigned() && size[i].get<uint64_t>() >= 1 &&
+           size[i].get<uint64_t>() <= kMaxPictureSide;
+    if (good) sides[i] = size[i].get<uint32_t>();
+  }
+  if (!good) {
+    reader->wrong("size",
+                  "[width, height], whole numbers from 1 to " + std::to_string(kMaxPictureSide));
+  }
+  if (!errors->ok()) return;
+  scene->width = sides[0];
+  scene->height = sides[1];
+}
+
+std::optional<double> readExposure(ObjectReader* reader) {
+  if (!reader->has("exposure")) return std::nullopt;
+  const Json& value = reader->required("exposure");
+  if (value == "auto") return std::nullopt;
+  if (value.is_number() && value.get<double>() > 0.0) return value.get<double>();
+  reader->wrong("exposure", "\"auto\" or a number above 0");
+  return std::nullopt;
+}
+
+// Fields whose other values belong to features that this version doesn't have.
+void readLaterFeatures(JsonErrors* errors, ObjectReader* reader, Scene* scene) {
+  if (reader->given("terrain")) {
+    reader->wrong("terrain", "null, because this version draws no terrain");
+  }
+  if (reader->given("quality")) {
+    reader->wrong("quality", "null, because this version has no quality levels");
+  }
+  reader->choice("model", {"bruneton"});
+  reader->choice("shafts", {"auto", "off"});
+  if (reader->given("solver")) {
+    reader->choice("solver", {"standard"});
+    scene->solver = Solver::Standard;
+  }
+  if (reader->has("effects")) {
+    ObjectReader effects(errors, reader->required("effects"), "effects.", "", {"light_shafts"});
+    effects.choice("light_shafts", {"auto", "off"});
+  }
+}
+
+Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& folder) {
+  ObjectReader reader(errors, value, "", "",
+                      {"atmosphere", "sun", "camera", "ground", "terrain", "size", "exposure",
+                       "tone_map", "model", "solver", "orders", "quality", "shafts", "effects"});
+  Scene scene;
+  const Json& atmosphere = reader.required("atmosphere");
+  const Json& sun = reader.required("sun");
+  const Json& camera = reader.required("camera");
+  if (!errors->ok()) return scene;
+  if (!atmosphere.is_string() && !atmosphere.is_object()) {
+    reader.wrong("atmosphere", "a preset's name, a file's name or an object");
+    return scene;
+  }
+  readAtmosphereOf(errors, atmosphere, folder, &scene.atmosphere);
+  scene.sun = readSun(errors, sun);
+  scene.camera = readCamera(errors, camera);
+  if (reader.given("ground")) {
+    scene.albedoMap = readGround(errors, reader.required("ground"), folder);
+  }
+  readSize(errors, &reader, &scene);
+  scene.exposure = readExposure(&reader);
+  scene.toneMap = static_cast<ToneMap>(reader.choice("tone_map", toneMapNames()));
+  if (reader.given("orders")) scene.orders = reader.integer("orders", 1, kMaxOrders);
+  readLaterFeatures(errors, &reader, &scene);
+  return scene;
+}
+
+Result<Scene> sceneOrError(const Json& value, const std::string& name, const std::string& folder) {
+  JsonErrors errors{name, {}};
+  Scene scene = sceneFromJson(&errors, value, folder);
+  if (!errors.ok()) return Result<Scene>::failure(errors.first);
+  return scene;
+}
+
+std::string folderOf(const std::string& path) {
+  return std::filesystem::path(path).parent_path().string();
+}
+
+}  // namespace
+
+Result<Scene> parseScene(const std::string& text, const std::string& name,
+                         const std::string& folder) {
+  const Result<Json> value = parseJson(text, name);
+  if (!value) return Result<Scene>::failure(value.error);
+  return sceneOrError(*value, name, folder);
+}
+
+Result<Scene> readScene(const std::string& path) {
+  const Result<Json> value = readJson(path);
+  if (!value) return Result<Scene>::failure(value.error);
+  return sceneOrError(*value, path, folderOf(path));
+}
+
+Result<AtmosphereSource> findAtmosphereOrScene(const std::string& nameOrPath) {
+  using Found = Result<AtmosphereSource>;
+  AtmosphereSource source;
+  if (findPreset(nameOrPath.c_str(), &source.parameters) == Status::Ok) return source;
+  std::error_code code;
+  if (!std::filesystem::exists(nameOrPath, code)) {
+    return Found::failure("There is no preset and no file named '" + nameOrPath +
+                          "'; 'alpenglow presets' lists the presets.");
+  }
+  const Result<Json> value = readJson(nameOrPath);
+  if (!value) return Found::failure(value.error);
+  const bool isScene = value->is_object() && (value->contains("atmosphere") ||
+                                              value->contains("camera") || value->contains("sun"));
+  if (isScene) {
+    Result<Scene> scene = sceneOrError(*value, nameOrPath, folderOf(nameOrPath));
+    if (!scene) return Found::failure(scene.error);
+    source.parameters = scene->atmosphere;
+    source.scene = std::move(*scene);
+    return source;
+  }
+  JsonErrors errors{nameOrPath, {}};
+  source.parameters = atmosphereFromJson(&errors, *value, "");
+  if (!errors.ok()) return Found::failure(errors.first);
+  return source;
+}
+
+}  // namespace alpenglow::io

@@ -1,0 +1,189 @@
+#include "atmosphere/io/table_format.h"
+
+#include <OpenImageIO/hash.h>
+
+#include <array>
+#include <cstdio>
+#include <string_view>
+
+namespace alpenglow::io {
+namespace {
+
+constexpr uint32_t kDefaultOrders = 5;
+// The headers of a file stand at its start; the digits are never further in than this.
+constexpr size_t kMaxHeaderBytes = size_t{1} << 20;
+
+void fillZeros(TableSizes* sizes) {
+  const TableSizes defaults = defaultTableSizes();
+  const auto fill = [](uint32_t* size, uint32_t value) { *size = *size == 0 ? value : *size; };
+  fill(&sizes->transmittanceMu, defaults.transmittanceMu);
+  fill(&sizes->transmittanceR, defaults.transmittanceR);
+  fill(&sizes->irradianceMuS, defaults.irradianceMuS);
+  fill(&sizes->irradianceR, defaults.irradianceR);
+  fill(&sizes->scatteringR, defaults.scatteringR);
+  fill(&sizes->scatteringMu, defaults.scatteringMu);
+  fill(&sizes->scatteringMuS, defaults.scatteringMuS);
+  fill(&sizes->scatteringNu, defaults.scatteringNu);
+}
+
+TablePart part(const std::string& name, uint32_t width, uint32_t height, uint32_t depth) {
+  return {name, width, height, depth, {}};
+}
+
+TablePart irradiancePart(const TableSizes& sizes, const std::string& name) {
+  return part(name, sizes.irradianceMuS, sizes.irradianceR, 1);
+}
+
+TablePart scatteringPart(const TableSizes& sizes, const std::string& name) {
+  return part(name, sizes.scatteringMuS * sizes.scatteringNu, sizes.scatteringMu,
+              sizes.scatteringR);
+}
+
+// "AxBxC..." of exactly `count` whole numbers from 1 to kMaxTableSide.
+bool parseNumbers(const std::string& text, size_t count, uint32_t* numbers) {
+  size_t at = 0;
+  for (size_t i = 0; i < count; ++i) {
+    const size_t start = at;
+    uint32_t value = 0;
+    while (at < text.size() && text[at] >= '0' && text[at] <= '9' && value <= kMaxTableSide) {
+      value = value * 10 + static_cast<uint32_t>(text[at] - '0');
+      ++at;
+    }
+    if (at == start || value < 1 || value > kMaxTableSide) return false;
+    numbers[i] = value;
+    if (i + 1 < count && (at >= text.size() || text[at++] != 'x')) return false;
+  }
+  return at == text.size();
+}
+
+std::string times(std::initializer_list<uint32_t> numbers) {
+  std::string text;
+  for (const uint32_t number : numbers) {
+    if (!text.empty()) text += 'x';
+    text += std::to_string(number);
+  }
+  return text;
+}
+
+}  // namespace
+
+const TablePart* TableFile::find(const std::string& name) const {
+  for (const TablePart& candidate : parts) {
+    if (candidate.name == name) return &candidate;
+  }
+  return nullptr;
+}
+
+TableDesc resolved(TableDesc desc) {
+  fillZeros(&desc.sizes);
+  if (desc.orders == 0) desc.orders = kDefaultOrders;
+  return desc;
+}
+
+Done checkSizes(const TableDesc& desc) {
+  const TableSizes& s = desc.sizes;
+  const std::pair<const char*, uint32_t> sides[] = {
+      {"mu of the transmittance", s.transmittanceMu}, {"r of the transmittance", s.transmittanceR},
+      {"mu_s of the irradiance", s.irradianceMuS},    {"r of the irradiance", s.irradianceR},
+      {"r of the scattering", s.scatteringR},         {"mu of the scattering", s.scatteringMu},
+      {"mu_s of the scattering", s.scatteringMuS},    {"nu of the scattering", s.scatteringNu}};
+  for (const auto& [name, size] : sides) {
+    if (size < 2 || size > kMaxTableSide) {
+      return {"The size " + std::to_string(size) + " for " + name +
+              " is out of bounds; it must be from 2 to " + std::to_string(kMaxTableSide) + "."};
+    }
+  }
+  if (s.scatteringMu < 4 || s.scatteringMu % 2 != 0) {
+    return {"The size " + std::to_string(s.scatteringMu) +
+            " for mu of the scattering must be even and at least 4."};
+  }
+  const uint64_t texels =
+      uint64_t{s.scatteringR} * s.scatteringMu * s.scatteringMuS * s.scatteringNu;
+  if (texels > kMaxTableTexels) {
+    return {"The size " + scatteringSizeText(s) + " of the scattering has " +
+            std::to_string(texels) + " texels; at most " + std::to_string(kMaxTableTexels) +
+            " are allowed."};
+  }
+  return {};
+}
+
+std::vector<TablePart> expectedParts(const TableDesc& desc) {
+  const TableSizes& sizes = desc.sizes;
+  std::vector<TablePart> parts = {
+      part("optical_depth", sizes.transmittanceMu, sizes.transmittanceR, 1),
+      irradiancePart(sizes, "irradiance"), scatteringPart(sizes, "scattering")};
+  if (desc.mie == MieStorage::Full) parts.push_back(scatteringPart(sizes, "single_mie"));
+  return parts;
+}
+
+std::optional<TablePart> orderPart(const TableDesc& desc, const std::string& name) {
+  for (uint32_t order = 1; order <= desc.orders; ++order) {
+    const std::string suffix = "_order_" + std::to_string(order);
+    if (name == "irradiance" + suffix) return irradiancePart(desc.sizes, name);
+    if (name == "scattering" + suffix) return scatteringPart(desc.sizes, name);
+    if (order == 1 && name == "single_mie" + suffix) return scatteringPart(desc.sizes, name);
+  }
+  return std::nullopt;
+}
+
+std::string transmittanceSizeText(const TableSizes& sizes) {
+  return times({sizes.transmittanceMu, sizes.transmittanceR});
+}
+
+std::string irradianceSizeText(const TableSizes& sizes) {
+  return times({sizes.irradianceMuS, sizes.irradianceR});
+}
+
+std::string scatteringSizeText(const TableSizes& sizes) {
+  return times({sizes.scatteringR, sizes.scatteringMu, sizes.scatteringMuS, sizes.scatteringNu});
+}
+
+bool parseTransmittanceSize(const std::string& text, TableSizes* sizes) {
+  uint32_t n[2] = {};
+  if (!parseNumbers(text, 2, n)) return false;
+  sizes->transmittanceMu = n[0];
+  sizes->transmittanceR = n[1];
+  return true;
+}
+
+bool parseIrradianceSize(const std::string& text, TableSizes* sizes) {
+  uint32_t n[2] = {};
+  if (!parseNumbers(text, 2, n)) return false;
+  sizes->irradianceMuS = n[0];
+  sizes->irradianceR = n[1];
+  return true;
+}
+
+bool parseScatteringSize(const std::string& text, TableSizes* sizes) {
+  uint32_t n[4] = {};
+  if (!parseNumbers(text, 4, n)) return false;
+  sizes->scatteringR = n[0];
+  sizes->scatteringMu = n[1];
+  sizes->scatteringMuS = n[2];
+  sizes->scatteringNu = n[3];
+  return true;
+}
+
+std::optional<size_t> findChecksum(const std::string& bytes) {
+  // An EXR attribute: its name, its type and its length of 4 bytes, the lowest first.
+  std::string mark = kChecksumAttribute;
+  mark += std::string_view("\0string\0\x10\0\0\0", 12);
+  const std::string_view head = std::string_view(bytes).substr(0, kMaxHeaderBytes);
+  const size_t at = head.find(mark);
+  if (at == std::string::npos || at + mark.size() + kChecksumDigits > bytes.size()) {
+    return std::nullopt;
+  }
+  return at + mark.size();
+}
+
+std::string checksum(std::string* bytes, size_t digits) {
+  const std::string kept = bytes->substr(digits, kChecksumDigits);
+  bytes->replace(digits, kChecksumDigits, kChecksumDigits, '0');
+  const unsigned long long hash = OIIO::xxhash::XXH64(bytes->data(), bytes->size(), 0);
+  bytes->replace(digits, kChecksumDigits, kept);
+  std::array<char, kChecksumDigits + 1> text = {};
+  std::snprintf(text.data(), text.size(), "%016llx", hash);
+  return text.data();
+}
+
+}  // namespace alpenglow::io

@@ -1,0 +1,97 @@
+#include <alpenglow/io/tone_map.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "atmosphere/model/physics_cpp.h"
+
+namespace alpenglow::io {
+namespace {
+
+constexpr double kMiddleGrey = 0.2;
+constexpr double kBrightestWhite = 4.0;
+constexpr double kWhitePercentile = 0.99;
+constexpr double kCountedRange = 64.0;
+
+std::vector<float> litLuminances(const LinearImage& image) {
+  std::vector<float> luminances;
+  luminances.reserve(image.pixels.size() / 3);
+  for (size_t i = 0; i + 2 < image.pixels.size(); i += 3) {
+    const float* c = &image.pixels[i];
+    const float luminance = 0.2126f * c[0] + 0.7152f * c[1] + 0.0722f * c[2];
+    if (std::isfinite(luminance) && luminance > 0.0f) luminances.push_back(luminance);
+  }
+  return luminances;
+}
+
+// A number in [0, 1) that depends on the place alone, and shows no pattern to the eye.
+float ditherAt(uint32_t x, uint32_t y, uint32_t channel) {
+  uint32_t h = x * 0x9E3779B1u ^ y * 0x85EBCA77u ^ channel * 0xC2B2AE3Du;
+  h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
+  h = (h ^ (h >> 12)) * 0x297A2D39u;
+  h ^= h >> 15;
+  return static_cast<float>(h >> 8) * 0x1p-24f;
+}
+
+glm::vec3 mapTone(glm::vec3 color, ToneMap toneMap) {
+  switch (toneMap) {
+    case ToneMap::Filmic:
+      return physics_f32::toneMapFilmic(color);
+    case ToneMap::Reinhard:
+      return physics_f32::toneMapReinhard(color);
+    case ToneMap::Linear:
+      break;
+  }
+  return physics_f32::toneMapLinear(color);
+}
+
+// The ends are kept apart from the dither: black and white stay what they are. NaN is black.
+uint8_t encoded(float value, float dither) {
+  if (value >= 1.0f) return 255;
+  if (!(value > 0.0f)) return 0;
+  return static_cast<uint8_t>(std::floor(255.0f * physics_f32::srgbEncode(value) + dither));
+}
+
+}  // namespace
+
+const std::vector<std::string>& toneMapNames() {
+  static const std::vector<std::string> kNames = {"filmic", "reinhard", "linear"};
+  return kNames;
+}
+
+double automaticExposure(const LinearImage& image) {
+  std::vector<float> lit = litLuminances(image);
+  if (lit.empty()) return 1.0;
+  const auto whiteAt =
+      static_cast<std::ptrdiff_t>(static_cast<double>(lit.size() - 1) * kWhitePercentile);
+  std::nth_element(lit.begin(), lit.begin() + whiteAt, lit.end());
+  const double white = static_cast<double>(lit[static_cast<size_t>(whiteAt)]);
+  double sum = 0.0;
+  double count = 0.0;
+  for (const float luminance : lit) {
+    const double value = static_cast<double>(luminance);
+    if (value < white / kCountedRange || value > white) continue;
+    sum += std::log2(value);
+    count += 1.0;
+  }
+  const double mean = std::exp2(sum / count);
+  return std::clamp(std::min(kMiddleGrey / mean, kBrightestWhite / white), 1e-9, 1e12);
+}
+
+ByteImage toneMapped(const LinearImage& image, double exposure, ToneMap toneMap) {
+  ByteImage out{image.width, image.height, std::vector<uint8_t>(image.pixels.size())};
+  const float factor = static_cast<float>(exposure);
+  for (uint32_t y = 0; y < image.height; ++y) {
+    for (uint32_t x = 0; x < image.width; ++x) {
+      const size_t first = (size_t{y} * image.width + x) * 3;
+      glm::vec3 color(image.pixels[first], image.pixels[first + 1], image.pixels[first + 2]);
+      color = mapTone(color * factor, toneMap);
+      for (uint32_t c = 0; c < 3; ++c) {
+        out.pixels[first + c] = encoded(color[static_cast<int>(c)], ditherAt(x, y, c));
+      }
+    }
+  }
+  return out;
+}
+
+}  // namespace alpenglow::io

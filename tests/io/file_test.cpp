@@ -1,0 +1,99 @@
+#include <alpenglow/io/file.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "temporary_folder.h"
+
+namespace alpenglow::io {
+namespace {
+
+using test::contentsOf;
+using test::expectSentence;
+using test::TemporaryFolder;
+
+Done writeText(const std::string& path, const std::string& text) {
+  return writeFile(path, text.data(), text.size());
+}
+
+TEST(WholeFile, WritesNewAndReplacesOld) {
+  TemporaryFolder folder;
+  ASSERT_TRUE(writeText(folder / "a", "first"));
+  EXPECT_EQ(contentsOf(folder / "a"), "first");
+  ASSERT_EQ(::chmod((folder / "a").c_str(), 0640), 0);
+  ASSERT_TRUE(writeText(folder / "a", "second, longer"));
+  EXPECT_EQ(contentsOf(folder / "a"), "second, longer");
+  struct stat info = {};
+  ASSERT_EQ(::stat((folder / "a").c_str(), &info), 0);
+  EXPECT_EQ(info.st_mode & 07777, 0640u);
+  EXPECT_EQ(folder.names().size(), 1u);
+  EXPECT_EQ(*readFile(folder / "a", 100), "second, longer");
+}
+
+TEST(WholeFile, ReplacesByRename) {
+  TemporaryFolder folder;
+  ASSERT_TRUE(writeText(folder / "a", "old"));
+  std::ifstream open(folder / "a");
+  ASSERT_TRUE(writeText(folder / "a", "new"));
+  std::string seen;
+  open >> seen;
+  EXPECT_EQ(seen, "old");  // Who had it open keeps the old file.
+}
+
+TEST(WholeFile, FollowsSymbolicLinks) {
+  TemporaryFolder folder;
+  folder.write("real", "old");
+  ASSERT_EQ(::symlink("real", (folder / "link").c_str()), 0);
+  ASSERT_EQ(::symlink("later", (folder / "dangling").c_str()), 0);
+  ASSERT_TRUE(writeText(folder / "link", "new"));
+  EXPECT_EQ(contentsOf(folder / "real"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  ASSERT_TRUE(writeText(folder / "dangling", "made"));
+  EXPECT_EQ(contentsOf(folder / "later"), "made");
+}
+
+TEST(WholeFile, RefusesFoldersAndMissingFolders) {
+  TemporaryFolder folder;
+  for (const std::string& path : {folder.path(), folder / "no/such/file", std::string()}) {
+    expectSentence(writeText(path, "x").error);
+    expectSentence(checkOutput(path).error);
+    EXPECT_FALSE(PendingFile::create(path));
+  }
+  EXPECT_TRUE(checkOutput(folder / "fine"));
+  EXPECT_TRUE(folder.names().empty());
+}
+
+TEST(WholeFile, AFullDeviceIsReported) {
+  const Done done = writeText("/dev/full", "x");
+  expectSentence(done.error);
+  EXPECT_NE(done.error.find("No space left"), std::string::npos) << done.error;
+  EXPECT_TRUE(writeText("/dev/null", "x"));
+  EXPECT_FALSE(PendingFile::create("/dev/full"));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+TEST(WholeFile, APendingFileThatIsDroppedLeavesNothing) {
+  TemporaryFolder folder;
+  folder.write("a", "old");
+  {
+    Result<PendingFile> pending = PendingFile::create(folder / "a");
+    ASSERT_TRUE(pending) << pending.error;
+    std::ofstream(pending->path()) << "half";
+    EXPECT_EQ(folder.names().size(), 2u);
+  }
+  EXPECT_EQ(folder.names().size(), 1u);
+  EXPECT_EQ(contentsOf(folder / "a"), "old");
+}
+
+TEST(ReadFile, StopsAtItsLimit) {
+  TemporaryFolder folder;
+  const std::string path = folder.write("a", std::string(100, 'x'));
+  EXPECT_EQ(readFile(path, 100)->size(), 100u);
+  EXPECT_NE(readFile(path, 99).error.find("longer than 99 bytes"), std::string::npos);
+  expectSentence(readFile("/dev/zero", 1000).error);
+  expectSentence(readFile(folder / "absent", 10).error);
+  expectSentence(readFile(folder.path(), 10).error);
+}
+
+}  // namespace
+}  // namespace alpenglow::io

@@ -1,0 +1,177 @@
+#include <alpenglow/io/atmosphere_file.h>
+#include <alpenglow/io/scene_file.h>
+
+#include "temporary_folder.h"
+
+namespace alpenglow::io {
+namespace {
+
+using test::expectSentence;
+using test::TemporaryFolder;
+
+constexpr double kRadians = 3.14159265358979323846 / 180.0;
+
+const char* const kFull = R"({ "atmosphere": "earth",
+  "sun": { "elevation_deg": 5, "azimuth_deg": 90, "disc_radius_deg": 0.25 },
+  "camera": { "latitude_deg": 10, "longitude_deg": 20, "altitude_m": 300, "heading_deg": 91, "pitch_deg": 12, "roll_deg": 3,
+              "projection": "perspective", "fov_deg": 50 },
+  "ground": { "albedo_map": "data/earth.jpg" },
+  "terrain": null, "size": [640, 480], "exposure": 2.5, "tone_map": "linear",
+  "model": "bruneton", "solver": "standard", "orders": 3, "shafts": "auto",
+  "effects": { "light_shafts": "auto" } }
+)";
+const char* const kLeast =
+    R"({ "atmosphere": "earth", "sun": { "elevation_deg": 5 }, "camera": {} })";
+
+std::string with(const std::string& field, const std::string& value) {
+  return "{ \"atmosphere\": \"earth\", \"sun\": { \"elevation_deg\": 5 }, \"camera\": {}, \"" +
+         field + "\": " + value + " }";
+}
+
+std::string errorOf(const std::string& text) {
+  const Result<Scene> result = parseScene(text, "s.json", "folder");
+  EXPECT_FALSE(result) << text;
+  expectSentence(result.error);
+  return result.error;
+}
+
+void expectMentions(const std::string& text, std::initializer_list<const char*> words) {
+  for (const char* word : words) EXPECT_NE(text.find(word), std::string::npos) << text;
+}
+
+TEST(SceneFile, ReadsEveryField) {
+  const Result<Scene> scene = parseScene(kFull, "s.json", "folder");
+  ASSERT_TRUE(scene) << scene.error;
+  EXPECT_DOUBLE_EQ(scene->sun.elevation, 5 * kRadians);
+  EXPECT_DOUBLE_EQ(scene->sun.azimuth, 90 * kRadians);
+  EXPECT_DOUBLE_EQ(scene->sun.discRadius, 0.25 * kRadians);
+  EXPECT_DOUBLE_EQ(scene->camera.latitude, 10 * kRadians);
+  EXPECT_DOUBLE_EQ(scene->camera.longitude, 20 * kRadians);
+  EXPECT_EQ(scene->camera.altitude_m, 300.0);
+  EXPECT_DOUBLE_EQ(scene->camera.heading, 91 * kRadians);
+  EXPECT_DOUBLE_EQ(scene->camera.pitch, 12 * kRadians);
+  EXPECT_DOUBLE_EQ(scene->camera.roll, 3 * kRadians);
+  EXPECT_EQ(scene->camera.projection, Projection::Perspective);
+  EXPECT_DOUBLE_EQ(scene->camera.fov, 50 * kRadians);
+  EXPECT_EQ(scene->albedoMap, "folder/data/earth.jpg");
+  EXPECT_EQ(scene->width, 640u);
+  EXPECT_EQ(scene->height, 480u);
+  EXPECT_EQ(scene->exposure, 2.5);
+  EXPECT_EQ(scene->toneMap, ToneMap::Linear);
+  EXPECT_EQ(scene->solver, Solver::Standard);
+  EXPECT_EQ(scene->orders, 3u);
+}
+
+TEST(SceneFile, TheRestHasDefaults) {
+  const Result<Scene> scene = parseScene(kLeast, "s.json", "");
+  ASSERT_TRUE(scene) << scene.error;
+  EXPECT_EQ(scene->width, 1024u);
+  EXPECT_EQ(scene->height, 768u);
+  EXPECT_FALSE(scene->exposure.has_value());
+  EXPECT_EQ(scene->toneMap, ToneMap::Filmic);
+  EXPECT_FALSE(scene->orders.has_value());
+  EXPECT_FALSE(scene->solver.has_value());
+  EXPECT_TRUE(scene->albedoMap.empty());
+  EXPECT_EQ(scene->camera.altitude_m, 2.0);
+  EXPECT_DOUBLE_EQ(scene->camera.fov, 60 * kRadians);
+  EXPECT_DOUBLE_EQ(scene->sun.discRadius, 0.2667 * kRadians);
+  const Result<Scene> fisheye = parseScene(
+      R"({"atmosphere": "mars", "sun": {"elevation_deg": -3}, "camera": {"projection": "fisheye"}})",
+      "s.json", "");
+  ASSERT_TRUE(fisheye) << fisheye.error;
+  EXPECT_DOUBLE_EQ(fisheye->camera.fov, 180 * kRadians);
+}
+
+TEST(SceneFile, NamesMissingAndUnknownFields) {
+  for (const char* field : {"atmosphere", "sun", "camera"}) {
+    std::string text = kLeast;
+    text.replace(text.find(field), std::string(field).size(), "spot");
+    EXPECT_NE(errorOf(text).find("'spot'"), std::string::npos);
+  }
+  expectMentions(errorOf("{}"), {"s.json", "'atmosphere'", "missing"});
+  expectMentions(errorOf(R"({"atmosphere": "earth", "camera": {}})"), {"'sun'", "missing"});
+  expectMentions(errorOf(R"({"atmosphere": "earth", "camera": {}, "sun": {}})"),
+                 {"'sun.elevation_deg'", "missing"});
+  expectMentions(errorOf(with("colour", "1")), {"'colour'", "unknown"});
+  expectMentions(errorOf(with("ground", "{\"map\": 1}")), {"'ground.map'", "unknown"});
+  expectMentions(errorOf(with("effects", "{\"rain\": \"on\"}")), {"'effects.rain'", "unknown"});
+}
+
+TEST(SceneFile, RefusesWrongValuesByName) {
+  const std::pair<const char*, const char*> bad[] = {
+      {"size", "[0, 10]"},    {"size", "[10]"},      {"size", "[10.5, 3]"},
+      {"size", "[99999, 3]"}, {"size", "\"big\""},   {"size", "[-1, 3]"},
+      {"exposure", "0"},      {"exposure", "-1"},    {"exposure", "\"bright\""},
+      {"exposure", "1e999"},  {"tone_map", "\"x\""}, {"tone_map", "null"},
+      {"orders", "0"},        {"orders", "65"},      {"orders", "2.5"},
+      {"orders", "\"many\""}, {"ground", "3"},       {"ground", "{\"albedo_map\": 3}"}};
+  for (const auto& [field, value] : bad) expectMentions(errorOf(with(field, value)), {field});
+  const std::pair<const char*, const char*> camera[] = {
+      {"latitude_deg", "91"}, {"pitch_deg", "-91"}, {"fov_deg", "0"},       {"fov_deg", "180"},
+      {"altitude_m", "NaN"},  {"roll_deg", "\"\""}, {"projection", "\"x\""}};
+  for (const auto& [field, value] : camera) {
+    const std::string text = std::string(R"({"atmosphere":"earth","sun":{"elevation_deg":1},)") +
+                             "\"camera\":{\"" + field + "\":" + value + "}}";
+    expectMentions(errorOf(text), {field, "camera."});
+  }
+  expectMentions(errorOf(R"({"atmosphere":"earth","camera":{},"sun":{"elevation_deg":90.5}})"),
+                 {"sun.elevation_deg", "90.5", "-90 to 90"});
+}
+
+TEST(SceneFile, FeaturesOfLaterVersionsAreRefusedWithWhatExists) {
+  expectMentions(errorOf(with("terrain", "{}")), {"'terrain'", "no terrain"});
+  expectMentions(errorOf(with("model", "\"preetham\"")), {"'model'", "\"bruneton\""});
+  expectMentions(errorOf(with("solver", "\"moments\"")), {"'solver'", "\"standard\""});
+  expectMentions(errorOf(with("quality", "\"medium\"")), {"'quality'", "\"medium\""});
+  expectMentions(errorOf(with("shafts", "\"volumes\"")), {"'shafts'", "\"off\""});
+  expectMentions(errorOf(with("effects", "{\"light_shafts\": \"on\"}")),
+                 {"'effects.light_shafts'", "\"on\""});
+  EXPECT_TRUE(parseScene(with("shafts", "\"off\""), "s.json", ""));
+  EXPECT_TRUE(parseScene(with("effects", "{\"light_shafts\": \"off\"}"), "s.json", ""));
+  EXPECT_TRUE(parseScene(with("quality", "null"), "s.json", ""));
+}
+
+TEST(SceneFile, TheAtmosphereIsAPresetAFileOrInline) {
+  TemporaryFolder folder;
+  Parameters mars;
+  ASSERT_EQ(findPreset("mars", &mars), Status::Ok);
+  const std::string atmosphere = formatAtmosphere(mars);
+  std::filesystem::create_directory(folder / "sub");
+  folder.write("sub/air.json", atmosphere);
+  const auto scene = [](const std::string& value) {
+    return "{\"atmosphere\": " + value + ", \"sun\": {\"elevation_deg\": 1}, \"camera\": {}}";
+  };
+  for (const std::string& value : {std::string("\"mars\""), std::string("\"sub/air.json\""),
+                                   std::string("\"./sub/air.json\""), atmosphere}) {
+    const Result<Scene> result = readScene(folder.write("scene.json", scene(value)));
+    ASSERT_TRUE(result) << result.error;
+    EXPECT_EQ(firstDifference(result->atmosphere, mars), "");
+  }
+  expectMentions(readScene(folder.write("bad.json", scene("\"pluto\""))).error, {"\"pluto\""});
+  expectMentions(readScene(folder.write("bad.json", scene("3"))).error, {"'atmosphere'", "3"});
+  expectMentions(readScene(folder.write("bad.json", scene("{}"))).error,
+                 {"'atmosphere.bottom_radius_m'", "missing"});
+  folder.write("sub/bad.json", "{]");
+  expectMentions(readScene(folder.write("bad.json", scene("\"sub/bad.json\""))).error,
+                 {"sub/bad.json", "JSON"});
+}
+
+TEST(SceneFile, ScenesAndAtmospheresAreToldApartByContent) {
+  TemporaryFolder folder;
+  Parameters mars;
+  ASSERT_EQ(findPreset("mars", &mars), Status::Ok);
+  const std::string air = folder.write("a", formatAtmosphere(mars));
+  const std::string scene = folder.write("b", kLeast);
+  ASSERT_TRUE(findAtmosphereOrScene(air)) << findAtmosphereOrScene(air).error;
+  EXPECT_FALSE(findAtmosphereOrScene(air)->scene.has_value());
+  ASSERT_TRUE(findAtmosphereOrScene(scene));
+  EXPECT_TRUE(findAtmosphereOrScene(scene)->scene.has_value());
+  ASSERT_TRUE(findAtmosphereOrScene("mars"));
+  EXPECT_EQ(firstDifference(findAtmosphereOrScene("mars")->parameters, mars), "");
+  expectMentions(findAtmosphereOrScene("pluto").error, {"'pluto'", "preset"});
+  expectSentence(findAtmosphereOrScene("pluto").error);
+  expectSentence(findAtmosphereOrScene(folder.write("c", "{}")).error);
+}
+
+}  // namespace
+}  // namespace alpenglow::io
