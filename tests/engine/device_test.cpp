@@ -13,7 +13,6 @@
 namespace alpenglow::engine {
 namespace {
 
-using testing::CountingAllocator;
 using testing::MockVulkan;
 
 constexpr uint32_t kSpirv[] = {0x07230203, 0x00010500, 0, 1, 0};

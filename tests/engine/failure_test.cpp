@@ -2,12 +2,13 @@
 // documented one, a sentence comes with it, and nothing stays alive.
 #include <gtest/gtest.h>
 
-#include <functional>
+#include <algorithm>
 
 #include "engine/descriptors.h"
 #include "engine/memory.h"
 #include "engine/pipeline.h"
 #include "engine/sampler.h"
+#include "tests/engine/counting_allocator.h"
 #include "tests/engine/mock_vulkan.h"
 
 namespace alpenglow::engine {

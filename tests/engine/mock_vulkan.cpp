@@ -336,27 +336,4 @@ const std::string& MockVulkan::lastDiagnostic() const {
   return diagnostics.empty() ? kNone : diagnostics.back();
 }
 
-CountingAllocator::CountingAllocator() {
-  callbacks_.pUserData = this;
-  callbacks_.pfnAllocation = [](void* user, size_t size, size_t, VkSystemAllocationScope) {
-    auto* self = static_cast<CountingAllocator*>(user);
-    ++self->alive;
-    ++self->total;
-    return std::malloc(size);
-  };
-  callbacks_.pfnReallocation = [](void* user, void* old, size_t size, size_t,
-                                  VkSystemAllocationScope) {
-    auto* self = static_cast<CountingAllocator*>(user);
-    if (old == nullptr) {
-      ++self->alive;
-      ++self->total;
-    }
-    return std::realloc(old, size);
-  };
-  callbacks_.pfnFree = [](void* user, void* memory) {
-    if (memory != nullptr) --static_cast<CountingAllocator*>(user)->alive;
-    std::free(memory);
-  };
-}
-
 }  // namespace alpenglow::testing

@@ -80,16 +80,4 @@ class MockVulkan {
   std::map<uint64_t, void*> hostMemory_;  ///< From the allocation callbacks, by handle.
 };
 
-/// Callbacks that count what is alive.
-class CountingAllocator {
- public:
-  CountingAllocator();
-  const VkAllocationCallbacks* callbacks() const { return &callbacks_; }
-  int alive = 0;
-  int total = 0;
-
- private:
-  VkAllocationCallbacks callbacks_ = {};
-};
-
 }  // namespace alpenglow::testing

@@ -1,0 +1,158 @@
+// Proof that the net holds: each test does something wrong and must hear of it. Without these, a
+// validation layer that has fallen silent would look like success.
+#include <alpenglow/shaders/test_blur.h>
+#include <alpenglow/shaders/test_pattern.h>
+#include <gtest/gtest-spi.h>
+
+#include "engine/sampler.h"
+#include "tests/engine/gpu_fixture.h"
+
+namespace alpenglow::engine {
+namespace {
+
+using testing::ComputePass;
+using testing::DeviceTest;
+using testing::GpuTest;
+
+constexpr Shader kPattern = {shaders::kTestPattern, sizeof(shaders::kTestPattern), "pattern"};
+constexpr Shader kBlur = {shaders::kTestBlur, sizeof(shaders::kTestBlur), "blur"};
+constexpr VkFormat kHalf = VK_FORMAT_R16G16B16A16_SFLOAT;
+
+class NetTest : public GpuTest {
+ protected:
+  /// A dispatch reads what another has just written; with or without a barrier between.
+  void writeThenRead(bool withBarrier) {
+    Image& first = makeImage(8, 8, kHalf, "a table of ours");
+    Image& second = makeImage(8, 8, kHalf, "second");
+    const ComputePass write = makePass(kPattern, {&first});
+    const ComputePass read = makePass(kBlur, {&first, &second});
+    run([&](VkCommandBuffer commands) {
+      Barriers barriers;
+      barriers.image(first, kComputeWrite);
+      barriers.image(second, kComputeWrite);
+      EXPECT_EQ(barriers.record(engineDevice(), commands), Status::Ok);
+      dispatch(commands, write, first);
+      if (withBarrier) {
+        barriers.image(first, kComputeReadWrite);
+        EXPECT_EQ(barriers.record(engineDevice(), commands), Status::Ok);
+      }
+      dispatch(commands, read, second);
+      return true;
+    });
+  }
+};
+
+TEST_F(NetTest, MissingBarrierIsAHazardOfANamedImage) {
+  expectMessage("SYNC-HAZARD-READ-AFTER-WRITE");
+  writeThenRead(false);
+}
+
+TEST_F(NetTest, TheSameWithABarrierIsSilent) { writeThenRead(true); }
+
+TEST_F(NetTest, ObjectsCarryTheirNames) {
+  expectMessage("a table of ours");
+  writeThenRead(false);
+}
+
+TEST_F(NetTest, WrongLayoutIsReported) {
+  expectMessage("VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL");  // At the submit.
+  expectMessage("VUID-vkCmdDispatch-None-02699");
+  expectMessage("SYNC-HAZARD-WRITE-AFTER-WRITE");  // The write isn't what the barrier was for.
+  Image& image = makeImage(8, 8, kHalf, "image");
+  const ComputePass pass = makePass(kPattern, {&image});
+  run([&](VkCommandBuffer commands) {
+    Barriers barriers;
+    barriers.image(image, kComputeSampled);  // The descriptor says GENERAL.
+    EXPECT_EQ(barriers.record(engineDevice(), commands), Status::Ok);
+    // Our own check, which also covers attachments, hears of it first.
+    EXPECT_EQ(assertLayout(engineDevice(), image, VK_IMAGE_LAYOUT_GENERAL),
+              Status::InvalidArgument);
+    dispatch(commands, pass, image);
+    return true;
+  });
+}
+
+TEST_F(NetTest, MissingDescriptorSetIsReported) {
+  expectMessage("VUID-vkCmdDispatch-None-02697");
+  Image& image = makeImage(8, 8, kHalf, "image");
+  const ComputePass pass = makePass(kPattern, {&image});
+  // Recorded only: to run it would crash the driver.
+  const bool submitted = device().run(
+      [&](VkCommandBuffer commands) {
+        const float push = 0.0f;
+        vk().CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass.pipeline);
+        vk().CmdPushConstants(commands, pass.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push),
+                              &push);
+        vk().CmdDispatch(commands, 1, 1, 1);
+        return false;
+      },
+      nullptr);
+  EXPECT_FALSE(submitted);
+}
+
+TEST_F(NetTest, ObjectThatOutlivesItsDeviceIsReported) {
+  expectMessage("VUID-vkDestroyDevice-device-00378");
+  std::unique_ptr<headless::Device> other = makeDevice();
+  ASSERT_NE(other, nullptr);
+  engine::Device* context = nullptr;
+  ASSERT_EQ(engine::Device::create(other->contextDesc(), &context), Status::Ok);
+  VkSampler leaked = VK_NULL_HANDLE;
+  ASSERT_EQ(createSampler(*context, {}, &leaked), Status::Ok);
+  engine::Device::destroy(context);
+  other.reset();
+}
+
+TEST_F(NetTest, DestroyedTooEarlyIsReported) {
+  expectMessage("VUID-vkEndCommandBuffer-commandBuffer-00059");
+  expectMessage("destroyed");
+  Image& image = makeImage(8, 8, kHalf, "image");
+  const ComputePass pass = makePass(kPattern, {&image});
+  std::string error;
+  device().run(
+      [&](VkCommandBuffer commands) {
+        Barriers barriers;
+        barriers.image(image, kComputeWrite);
+        EXPECT_EQ(barriers.record(engineDevice(), commands), Status::Ok);
+        dispatch(commands, pass, image);
+        destroyImage(engineDevice(), &image);
+        return true;
+      },
+      &error);
+}
+
+/// The fixture itself: its TearDown is called by hand and must fail.
+class FixtureTest : public DeviceTest {
+ protected:
+  void provoke() {
+    engine::Device* context = nullptr;
+    ASSERT_EQ(engine::Device::create(contextDesc(), &context), Status::Ok);
+    const VkDescriptorSetLayoutBinding twice[] = {
+        {0, VK_DESCRIPTOR_TYPE_SAMPLER, 1, VK_SHADER_STAGE_ALL, nullptr},
+        {0, VK_DESCRIPTOR_TYPE_SAMPLER, 1, VK_SHADER_STAGE_ALL, nullptr}};
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    if (createSetLayout(*context, twice, 2, "twice", &layout) == Status::Ok) {
+      context->destroyObject(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, layout);
+    }
+    engine::Device::destroy(context);
+  }
+};
+
+TEST_F(FixtureTest, AMessageThatNobodyExpectsFailsTheTest) {
+  provoke();
+  EXPECT_NONFATAL_FAILURE(TearDown(), "Validation: ");
+}
+
+TEST_F(FixtureTest, SilenceWhereAMessageIsExpectedFailsTheTest) {
+  class Expecting : public DeviceTest {
+   public:
+    void TestBody() override {}
+    void expectInVain() {
+      expectMessage("the moon is made of cheese");
+      TearDown();
+    }
+  } expecting;
+  EXPECT_NONFATAL_FAILURE(expecting.expectInVain(), "the moon is made of cheese");
+}
+
+}  // namespace
+}  // namespace alpenglow::engine

@@ -1,0 +1,23 @@
+# cmake -DNM=nm -DARCHIVES="a.a;b.a" -P nm_test.cmake: fails when an archive defines or imports a
+# Vulkan function: every call has to go through the private table.
+if(NOT ARCHIVES)
+  message(FATAL_ERROR "No archives were named.")
+endif()
+foreach(archive IN LISTS ARCHIVES)
+  execute_process(COMMAND "${NM}" "${archive}" OUTPUT_VARIABLE symbols ERROR_VARIABLE errors
+                  RESULT_VARIABLE result)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${NM} ${archive} failed: ${errors}")
+  endif()
+  string(REGEX MATCHALL " [A-Za-z] vk[A-Z][A-Za-z0-9_]*" found "${symbols}")
+  if(found)
+    list(REMOVE_DUPLICATES found)
+    message(FATAL_ERROR " ${archive} has symbols of Vulkan:${found}")
+  endif()
+  string(REGEX MATCHALL "\n" lines "${symbols}")
+  list(LENGTH lines count)
+  if(count LESS 5)
+    message(FATAL_ERROR "${archive} has ${count} symbols only: is it what it should be?")
+  endif()
+  message(STATUS "${archive}: ${count} symbols, none of Vulkan")
+endforeach()
