@@ -102,24 +102,6 @@ TEST_F(NetTest, ObjectThatOutlivesItsDeviceIsReported) {
   other.reset();
 }
 
-TEST_F(NetTest, DestroyedTooEarlyIsReported) {
-  expectMessage("VUID-vkEndCommandBuffer-commandBuffer-00059");
-  expectMessage("destroyed");
-  Image& image = makeImage(8, 8, kHalf, "image");
-  const ComputePass pass = makePass(kPattern, {&image});
-  std::string error;
-  device().run(
-      [&](VkCommandBuffer commands) {
-        Barriers barriers;
-        barriers.image(image, kComputeWrite);
-        EXPECT_EQ(barriers.record(engineDevice(), commands), Status::Ok);
-        dispatch(commands, pass, image);
-        destroyImage(engineDevice(), &image);
-        return true;
-      },
-      &error);
-}
-
 /// The fixture itself: its TearDown is called by hand and must fail.
 class FixtureTest : public DeviceTest {
  protected:
