@@ -1,0 +1,54 @@
+// Bakes tables on the validated device and brings them to the CPU.
+#pragma once
+
+#include <alpenglow/probe.h>
+#include <alpenglow/tables.h>
+
+#include <map>
+#include <vector>
+
+#include "tests/engine/device_fixture.h"
+
+namespace alpenglow::testing {
+
+/// A table on the CPU: four values a texel, x fastest, as TableInfo says.
+struct CpuTable {
+  TableInfo info;
+  std::vector<uint8_t> bytes;  ///< As read back.
+  std::vector<float> values;
+
+  const float* texel(uint32_t x, uint32_t y, uint32_t z = 0) const {
+    return &values[4 * ((size_t(z) * info.height + y) * info.width + x)];
+  }
+};
+
+using TableCopies = std::map<TableId, CpuTable>;
+
+/// Sizes whose bake takes about a CPU second.
+inline constexpr TableSizes kSmallSizes = {64, 16, 16, 4, 8, 32, 16, 4};
+
+class BakeTest : public DeviceTest {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+
+  Context* context() { return context_; }
+  Parameters preset(const char* name);
+  /// Unbaked; destroyed by TearDown.
+  Tables* makeTables(const Parameters& parameters, const TableDesc& desc);
+  /// Records slices of `budget` units, one submit each, until the bake is done or `until` (a pass's
+  /// name) has finished.
+  void bake(Tables* tables, uint64_t budget = 0, const std::string& until = "");
+  Tables* bakeTables(const Parameters& parameters, const TableDesc& desc, uint64_t budget = 0);
+  CpuTable read(Tables* tables, TableId id);
+  std::vector<ProbeAnswer> probe(Tables* tables, const std::vector<ProbeQuery>& queries);
+
+ private:
+  Context* context_ = nullptr;
+  std::vector<Tables*> tables_;
+};
+
+/// Sorted errors' percentile, `share` in [0, 1].
+double percentile(std::vector<double> errors, double share);
+
+}  // namespace alpenglow::testing

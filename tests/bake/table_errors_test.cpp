@@ -1,0 +1,124 @@
+// Wrong calls get a status and a sentence with the value, and leave the tables as they were.
+#include "tests/bake/bake_fixture.h"
+
+namespace alpenglow::testing {
+namespace {
+
+class TableErrorsTest : public BakeTest {
+ protected:
+  void expectRefused(const TableDesc& desc, const std::string& part) {
+    Tables* tables = nullptr;
+    EXPECT_EQ(createTables(context(), preset("earth"), desc, &tables), Status::InvalidArgument);
+    EXPECT_EQ(tables, nullptr);
+    EXPECT_NE(lastDiagnostic().find(part), std::string::npos) << lastDiagnostic();
+  }
+};
+
+TEST_F(TableErrorsTest, WrongSizesAreRefusedByName) {
+  TableDesc desc;
+  desc.sizes.scatteringMu = 33;
+  expectRefused(desc, "scatteringMu is 33");
+  desc.sizes = {};
+  desc.sizes.transmittanceR = 1;
+  expectRefused(desc, "transmittanceR is 1");
+  desc.sizes = {};
+  desc.sizes.scatteringMuS = 4000;
+  desc.sizes.scatteringNu = 4000;
+  expectRefused(desc, "16000000 texels");
+  desc.sizes = {};
+  desc.sizes.irradianceMuS = 1'000'000;
+  expectRefused(desc, "irradianceMuS is 1000000");
+  desc = {};
+  desc.orders = 101;
+  expectRefused(desc, "orders is 101");
+  desc = {};
+  desc.format = static_cast<TableFormat>(9);
+  expectRefused(desc, "format 9");
+}
+
+TEST_F(TableErrorsTest, WrongParametersAreRefusedInTheValidatorsWords) {
+  Parameters earth = preset("earth");
+  earth.mie.asymmetry = 1.5;
+  Tables* tables = nullptr;
+  EXPECT_EQ(createTables(context(), earth, {}, &tables), Status::InvalidArgument);
+  EXPECT_NE(lastDiagnostic().find("mie.asymmetry"), std::string::npos) << lastDiagnostic();
+}
+
+TEST_F(TableErrorsTest, TablesThatAreNotReadyAreNotReadOrProbed) {
+  TableDesc desc;
+  desc.sizes = kSmallSizes;
+  Tables* tables = makeTables(preset("earth"), desc);
+  std::string error;
+  const headless::HostBuffer buffer = device().createHostBuffer(
+      1 << 20, VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &error);
+  run([&](VkCommandBuffer commands) {
+    EXPECT_EQ(recordTableReadback(tables, commands, TableId::Scattering, buffer.buffer(), 0),
+              Status::NotReady);
+    EXPECT_EQ(recordTableReadback(tables, commands, TableId::OrderScattering, buffer.buffer(), 0),
+              Status::Unsupported);
+    EXPECT_NE(lastDiagnostic().find("keepOrders"), std::string::npos) << lastDiagnostic();
+    const ProbeQuery query;
+    EXPECT_EQ(
+        recordProbe(context(), tables, commands, device().frame(), &query, 1, buffer.buffer()),
+        Status::NotReady);
+    EXPECT_NE(lastDiagnostic().find("0 of "), std::string::npos) << lastDiagnostic();
+    EXPECT_EQ(recordTableReadback(tables, commands, TableId::Scattering, VK_NULL_HANDLE, 0),
+              Status::InvalidArgument);
+    return true;
+  });
+}
+
+TEST_F(TableErrorsTest, OrderTablesAreReadOnlyBetweenOrders) {
+  TableDesc desc;
+  desc.sizes = kSmallSizes;
+  desc.orders = 2;
+  desc.keepOrders = true;
+  Tables* tables = makeTables(preset("earth"), desc);
+  std::string error;
+  const headless::HostBuffer buffer =
+      device().createHostBuffer(16 << 20, VK_BUFFER_USAGE_TRANSFER_DST_BIT, &error);
+  const auto status = [&](TableId id) {
+    Status result = Status::Ok;
+    run([&](VkCommandBuffer commands) {
+      result = recordTableReadback(tables, commands, id, buffer.buffer(), 0);
+      return true;
+    });
+    return result;
+  };
+  EXPECT_EQ(status(TableId::OrderScattering), Status::NotReady);
+  bake(tables, 0, "dE 1");
+  EXPECT_EQ(status(TableId::OrderScattering), Status::NotReady);
+  bake(tables, 0, "dS 1");
+  EXPECT_EQ(status(TableId::OrderScattering), Status::Ok);
+  EXPECT_EQ(status(TableId::OrderSingleMie), Status::Ok);
+  bake(tables);
+  EXPECT_EQ(status(TableId::OrderScattering), Status::Ok);
+  EXPECT_EQ(status(TableId::OrderSingleMie), Status::NotReady);
+  EXPECT_EQ(status(TableId::Scattering), Status::Ok);
+}
+
+TEST_F(TableErrorsTest, WrongQueriesAreRefusedByIndexAndField) {
+  TableDesc desc;
+  desc.sizes = kSmallSizes;
+  desc.orders = 1;
+  Tables* tables = bakeTables(preset("earth"), desc);
+  std::string error;
+  const headless::HostBuffer buffer =
+      device().createHostBuffer(1024, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &error);
+  ProbeQuery queries[2];
+  queries[1].viewZenith = 4.0;
+  run([&](VkCommandBuffer commands) {
+    EXPECT_EQ(
+        recordProbe(context(), tables, commands, device().frame(), queries, 2, buffer.buffer()),
+        Status::InvalidArgument);
+    EXPECT_NE(lastDiagnostic().find("ProbeQuery 1 has viewZenith = 4"), std::string::npos)
+        << lastDiagnostic();
+    EXPECT_EQ(
+        recordProbe(context(), tables, commands, device().frame(), queries, 0, buffer.buffer()),
+        Status::InvalidArgument);
+    return true;
+  });
+}
+
+}  // namespace
+}  // namespace alpenglow::testing
