@@ -72,18 +72,18 @@ TEST_F(NetTest, WrongLayoutIsReported) {
   });
 }
 
-TEST_F(NetTest, MissingDescriptorSetIsReported) {
-  expectMessage("VUID-vkCmdDispatch-None-02697");
-  Image& image = makeImage(8, 8, kHalf, "image");
-  const ComputePass pass = makePass(kPattern, {&image});
-  // Recorded only: to run it would crash the driver.
+TEST_F(NetTest, CopyOutOfBoundsIsReported) {
+  expectMessage("VUID-vkCmdCopyBuffer-size-00115");
+  std::string error;
+  const headless::HostBuffer source =
+      device().createHostBuffer(64, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, &error);
+  const headless::HostBuffer target =
+      device().createHostBuffer(128, VK_BUFFER_USAGE_TRANSFER_DST_BIT, &error);
+  // Recorded only: to run it would write what isn't ours.
   const bool submitted = device().run(
       [&](VkCommandBuffer commands) {
-        const float push = 0.0f;
-        vk().CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pass.pipeline);
-        vk().CmdPushConstants(commands, pass.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(push),
-                              &push);
-        vk().CmdDispatch(commands, 1, 1, 1);
+        const VkBufferCopy region = {0, 0, 65};
+        vk().CmdCopyBuffer(commands, source.buffer(), target.buffer(), 1, &region);
         return false;
       },
       nullptr);
