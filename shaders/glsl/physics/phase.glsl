@@ -7,10 +7,10 @@ ALPENGLOW_FN Real rayleighPhase(Real nu) {
 
 // Cornette-Shanks, equation 4 of the paper: P_M with asymmetry g.
 ALPENGLOW_FN Real miePhase(Real g, Real nu) {
-  Real k = REAL(3.0) / (REAL(8.0) * REAL(ALPENGLOW_PI)) * (REAL(1.0) - g * g) /
-           (REAL(2.0) + g * g);
-  // 1 + g^2 - 2 g nu as a sum of terms that can't be negative: it cancels for g near 1 and nu near 1.
+  Real k = REAL(3.0) / (REAL(8.0) * REAL(ALPENGLOW_PI)) * (REAL(1.0) - abs(g)) *
+           (REAL(1.0) + abs(g)) / (REAL(2.0) + g * g);
+  // 1 + g^2 - 2 g nu as a sum of terms that don't cancel for g near 1 and nu near 1.
   Real d = (REAL(1.0) - abs(g)) * (REAL(1.0) - abs(g)) +
-           REAL(2.0) * (abs(g) - g * clamp(nu, REAL(-1.0), REAL(1.0)));
+           REAL(2.0) * abs(g) * (REAL(1.0) - sign(g) * clamp(nu, REAL(-1.0), REAL(1.0)));
   return k * (REAL(1.0) + nu * nu) / (d * sqrt(d));
 }
