@@ -173,7 +173,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Case{VK_ERROR_OUT_OF_HOST_MEMORY, Status::OutOfHostMemory},
                       Case{VK_ERROR_OUT_OF_DEVICE_MEMORY, Status::OutOfDeviceMemory},
                       Case{VK_ERROR_DEVICE_LOST, Status::DeviceLost},
-                      Case{VK_ERROR_UNKNOWN, Status::VulkanError}));
+                      Case{VK_ERROR_UNKNOWN, Status::VulkanError}),
+    [](const auto& info) { return std::string(resultName(info.param.result)); });
 
 TEST(AllocationCallbacksTest, EveryObjectIsMadeAndDestroyedWithThem) {
   MockVulkan mock;

@@ -84,6 +84,7 @@ class MemoryTest : public ::testing::Test {
   }
 
   MockVulkan mock_;
+  Hooks hooks_;  // Outlives the device, as a host's must.
   Device* device_ = nullptr;
   std::vector<Image> images_;
   std::vector<Buffer> buffers_;
@@ -112,75 +113,69 @@ TEST_F(MemoryTest, EachResourceStartsAtItsAlignment) {
 TEST_F(MemoryTest, GranularityKeepsBuffersOffTheImagesPage) {
   mock_.properties.limits.bufferImageGranularity = 4096;
   mock_.imageRequirements = {{1000, 256, 3}};
-  Hooks hooks;
-  make(2, 2, &hooks.hooks);
+  make(2, 2, &hooks_.hooks);
   ASSERT_EQ(bind(kLocal), Status::Ok);
   ASSERT_EQ(mock_.bindings.size(), 4u);
   EXPECT_EQ(mock_.bindings[1].offset, 4096u + 1024u);
   EXPECT_EQ(mock_.bindings[2].offset, 4096u + 4096u);
   EXPECT_EQ(mock_.bindings[3].offset, 4096u + 4208u);
   // The pages count from the start of the memory, so the block itself starts on one.
-  EXPECT_EQ(hooks.asked.alignment, 4096u);
+  EXPECT_EQ(hooks_.asked.alignment, 4096u);
 }
 
 TEST_F(MemoryTest, GranularityCostsNothingWithoutAMixture) {
   mock_.properties.limits.bufferImageGranularity = 4096;
-  Hooks hooks;
-  make(0, 2, &hooks.hooks);
+  make(0, 2, &hooks_.hooks);
   ASSERT_EQ(bind(kLocal), Status::Ok);
-  EXPECT_EQ(hooks.asked.alignment, 16u);
-  EXPECT_EQ(hooks.asked.size, 212u);
+  EXPECT_EQ(hooks_.asked.alignment, 16u);
+  EXPECT_EQ(hooks_.asked.size, 212u);
 }
 
 TEST_F(MemoryTest, HooksServeTheBlockAndTakeItBack) {
-  Hooks hooks;
-  make(1, 0, &hooks.hooks);
+  make(1, 0, &hooks_.hooks);
   ASSERT_EQ(bind(kLocal), Status::Ok);
   EXPECT_EQ(mock_.count("vkAllocateMemory"), 0);
-  EXPECT_EQ(hooks.allocated, 1);
-  EXPECT_EQ(hooks.type, 0u);
-  EXPECT_EQ(hooks.name, "block");
-  EXPECT_EQ(hooks.asked.size, 1000u);
-  EXPECT_EQ(hooks.asked.alignment, 256u);
-  EXPECT_EQ(mock_.bindings[0].memory, hooks.answer.memory);
-  EXPECT_EQ(mock_.bindings[0].offset, hooks.answer.offset);
+  EXPECT_EQ(hooks_.allocated, 1);
+  EXPECT_EQ(hooks_.type, 0u);
+  EXPECT_EQ(hooks_.name, "block");
+  EXPECT_EQ(hooks_.asked.size, 1000u);
+  EXPECT_EQ(hooks_.asked.alignment, 256u);
+  EXPECT_EQ(mock_.bindings[0].memory, hooks_.answer.memory);
+  EXPECT_EQ(mock_.bindings[0].offset, hooks_.answer.offset);
   EXPECT_EQ(device_->counters().bytes, 1000u);
   freeBlock(*device_, &block_);
-  EXPECT_EQ(hooks.freed, 1);
+  EXPECT_EQ(hooks_.freed, 1);
   EXPECT_EQ(mock_.count("vkFreeMemory"), 0);
   EXPECT_EQ(device_->counters().bytes, 0u);
   EXPECT_EQ(device_->counters().peakBytes, 1000u);
 }
 
 TEST_F(MemoryTest, RefusingHookIsOutOfDeviceMemory) {
-  Hooks hooks;
-  hooks.result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
-  make(1, 0, &hooks.hooks);
+  hooks_.result = VK_ERROR_OUT_OF_DEVICE_MEMORY;
+  make(1, 0, &hooks_.hooks);
   EXPECT_EQ(bind(kLocal), Status::OutOfDeviceMemory);
   EXPECT_EQ(mock_.lastDiagnostic(),
             "The host's memory hook refused 1000 bytes for block \"block\": "
             "VK_ERROR_OUT_OF_DEVICE_MEMORY (-2).");
-  EXPECT_EQ(hooks.freed, 0);
+  EXPECT_EQ(hooks_.freed, 0);
   EXPECT_EQ(block_.range.memory, handleFrom<VkDeviceMemory>(0));
   EXPECT_EQ(device_->counters().bytes, 0u);
 }
 
 TEST_F(MemoryTest, MisalignedHookAnswerIsGivenBack) {
-  Hooks hooks;
-  hooks.answer.offset = 100;
-  make(1, 0, &hooks.hooks);
+  hooks_.answer.offset = 100;
+  make(1, 0, &hooks_.hooks);
   EXPECT_EQ(bind(kLocal), Status::InvalidArgument);
-  EXPECT_EQ(hooks.freed, 1);
+  EXPECT_EQ(hooks_.freed, 1);
   EXPECT_NE(mock_.lastDiagnostic().find("offset 100"), std::string::npos);
   EXPECT_NE(mock_.lastDiagnostic().find("multiple of 256"), std::string::npos);
 }
 
 TEST_F(MemoryTest, HookThatAnswersNoMemoryIsRefused) {
-  Hooks hooks;
-  hooks.answer.memory = VK_NULL_HANDLE;
-  make(1, 0, &hooks.hooks);
+  hooks_.answer.memory = VK_NULL_HANDLE;
+  make(1, 0, &hooks_.hooks);
   EXPECT_EQ(bind(kLocal), Status::InvalidArgument);
-  EXPECT_EQ(hooks.freed, 0);
+  EXPECT_EQ(hooks_.freed, 0);
 }
 
 TEST_F(MemoryTest, HostVisibleBlockIsMappedForEachBuffer) {
