@@ -174,7 +174,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{VK_ERROR_OUT_OF_DEVICE_MEMORY, Status::OutOfDeviceMemory},
                       Case{VK_ERROR_DEVICE_LOST, Status::DeviceLost},
                       Case{VK_ERROR_UNKNOWN, Status::VulkanError}),
-    [](const auto& info) { return std::string(resultName(info.param.result)); });
+    [](const auto& test) { return std::string(resultName(test.param.result)); });
 
 TEST(AllocationCallbacksTest, EveryObjectIsMadeAndDestroyedWithThem) {
   MockVulkan mock;
