@@ -148,6 +148,10 @@ Status ProbePass::record(const Tables& tables, VkCommandBuffer commands, const F
                         "buffer for the answers.",
                         count, static_cast<unsigned long long>(most));
   }
+  if (&tables.resources() != &resources_) {
+    return device_.fail(Status::InvalidArgument, VK_SUCCESS,
+                        "recordProbe got tables of another context, but needs those of its own.");
+  }
   for (uint32_t i = 0; i < count; ++i) {
     const Status checked = checkQuery(device_, i, queries[i]);
     if (checked != Status::Ok) return checked;

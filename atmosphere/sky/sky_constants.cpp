@@ -32,6 +32,30 @@ Viewport viewportOf(const SkyDraw& draw) {
   return {width, height, std::min(width, height)};
 }
 
+// Of a pixel at the centre of the view, radians.
+double pixelAngle(const ViewDesc& desc, const SkyDraw& draw) {
+  const Viewport v = viewportOf(draw);
+  return desc.projection == Projection::Fisheye ? draw.camera.fov / v.least
+                                                : 2.0 * std::tan(0.5 * draw.camera.fov) / v.height;
+}
+
+// The disc is drawn with a linear edge one pixel wide about `chord`: coverage is 1/2 there. Chosen
+// so that the drawn power is that of a sharp disc, which is pi (chord^2 + pixel^2 / 12) while the
+// edge is a ring; a disc smaller than that becomes a cone of one pixel's radius, dimmed.
+struct DrawnDisc {
+  double chord, radiance;  ///< 2 sin(radius / 2); per unit irradiance.
+};
+
+DrawnDisc drawnDisc(double radius, double pixel) {
+  if (radius <= 0.0) return {0.0, 0.0};
+  const double chord = 2.0 * std::sin(0.5 * radius);
+  const double solidAngle = kPi * chord * chord;
+  const double inPixels = chord / pixel;
+  if (inPixels * inPixels >= 1.0 / 3.0)
+    return {pixel * std::sqrt(inPixels * inPixels - 1.0 / 12.0), 1.0 / solidAngle};
+  return {0.5 * pixel, 3.0 * inPixels * inPixels / solidAngle};
+}
+
 bool unit(const double v[3]) { return std::abs(dot(v, v) - 1.0) < 1e-4; }  // false for NaN too
 
 Status refuse(const engine::Device& device, const char* field, const double v[3],
@@ -43,6 +67,25 @@ Status refuse(const engine::Device& device, const char* field, const double v[3]
 Status refuse(const engine::Device& device, const char* field, double value, const char* expected) {
   return device.fail(Status::InvalidArgument, VK_SUCCESS, "%s is %g, but must be %s.", field, value,
                      expected);
+}
+
+Status checkViewport(const engine::Device& device, const VkRect2D& area) {
+  const uint32_t* most = device.limits().maxViewportDimensions;
+  if (area.extent.width == 0 || area.extent.height == 0 || area.extent.width > most[0] ||
+      area.extent.height > most[1]) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "SkyDraw::viewport is %u x %u pixels, but must be from 1 x 1 to %u x %u.",
+                       area.extent.width, area.extent.height, most[0], most[1]);
+  }
+  if (area.offset.x < 0 || area.offset.y < 0 ||
+      int64_t{area.offset.x} + area.extent.width > INT32_MAX ||
+      int64_t{area.offset.y} + area.extent.height > INT32_MAX) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "SkyDraw::viewport begins at pixel (%d, %d), but must begin inside the "
+                       "colour attachment.",
+                       area.offset.x, area.offset.y);
+  }
+  return Status::Ok;
 }
 
 }  // namespace
@@ -72,12 +115,7 @@ Status checkDraw(const engine::Device& device, const ViewDesc& desc, const SkyDr
       return refuse(device, "Sun::irradiance", draw.sun.irradiance[i], "from 0 to below 1e30");
   if (!(draw.radianceScale >= 0.0 && draw.radianceScale < 1e30))
     return refuse(device, "SkyDraw::radianceScale", draw.radianceScale, "from 0 to below 1e30");
-  if (draw.viewport.extent.width == 0 || draw.viewport.extent.height == 0) {
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "SkyDraw::viewport is %u x %u pixels, but must be at least 1 x 1.",
-                       draw.viewport.extent.width, draw.viewport.extent.height);
-  }
-  return Status::Ok;
+  return checkViewport(device, draw.viewport);
 }
 
 Visible visible(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw) {
@@ -87,14 +125,17 @@ Visible visible(const Parameters& parameters, const ViewDesc& desc, const SkyDra
   const double halfDiagonal = desc.projection == Projection::Fisheye
                                   ? 0.5 * c.fov
                                   : std::atan(tangent * std::hypot(v.width / v.height, 1.0));
-  const double margin = 0.005;  // radians: rounding on the GPU, and the pixel's own width
+  // Radians: rounding on the GPU, and the disc's soft edge (see drawnDisc), which a chord makes
+  // longer.
+  const double margin = 0.005;
+  const double edge = 2.0 * pixelAngle(desc, draw);
   const double r = std::sqrt(dot(c.position_m, c.position_m));
   const double down[3] = {-c.position_m[0] / r, -c.position_m[1] / r, -c.position_m[2] / r};
   const double planet = std::asin(std::min(1.0, parameters.bottomRadius_m / r));
   Visible result;
   result.ground = angleBetween(c.forward, down) < planet + halfDiagonal + margin;
   result.disc = draw.sun.discRadius > 0.0 && angleBetween(c.forward, draw.sun.direction) <
-                                                 draw.sun.discRadius + halfDiagonal + margin;
+                                                 draw.sun.discRadius + halfDiagonal + edge + margin;
   return result;
 }
 
@@ -110,11 +151,10 @@ SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc,
                            c.forward[2] * c.up[0] - c.forward[0] * c.up[2],
                            c.forward[0] * c.up[1] - c.forward[1] * c.up[0]};
   const double tangent = fisheye ? 1.0 : std::tan(0.5 * c.fov);
-  const double pixel = fisheye ? c.fov / v.least : 2.0 * tangent / v.height;
+  const double pixel = pixelAngle(desc, draw);
   const double texel =
       kPi * parameters.bottomRadius_m / std::max(1.0, double(desc.groundAlbedo.height));
-  const double sine = std::sin(0.5 * draw.sun.discRadius);
-  const double solidAngle = 4.0 * kPi * sine * sine;
+  const DrawnDisc disc = drawnDisc(draw.sun.discRadius, pixel);
   const double scale = draw.radianceScale == 0.0 ? 1.0 : draw.radianceScale;
 
   SkyConstants k = {};
@@ -122,9 +162,8 @@ SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc,
   store(k.forwardPixel, c.forward, 1.0, pixel);
   store(k.rightHalfAngle, right, fisheye ? 1.0 : tangent * v.width / v.height, 0.5 * c.fov);
   store(k.downMapTexel, c.up, -tangent, texel);
-  store(k.sunDiscChord, draw.sun.direction, 1.0, 2.0 * sine);
-  store(k.irradianceDisc, draw.sun.irradiance.value, scale,
-        solidAngle > 0.0 ? 1.0 / solidAngle : 0.0);
+  store(k.sunDiscChord, draw.sun.direction, 1.0, disc.chord);
+  store(k.irradianceDisc, draw.sun.irradiance.value, scale, disc.radiance);
   k.circleScale[0] = static_cast<float>(v.width / v.least);
   k.circleScale[1] = static_cast<float>(v.height / v.least);
   return k;

@@ -4,6 +4,7 @@
 #include <alpenglow/shaders/sky_fragment_map.h>
 #include <alpenglow/shaders/sky_vertex.h>
 
+#include <bit>
 #include <new>
 
 namespace alpenglow {
@@ -18,6 +19,24 @@ Status checkViewDesc(const engine::Device& device, const ViewDesc& desc) {
                        "ViewDesc::colorFormat is VkFormat %d, but must be one that this device can "
                        "render to.",
                        static_cast<int>(desc.colorFormat));
+  }
+  const bool depth = desc.depthFormat != VK_FORMAT_UNDEFINED;
+  if (depth && (device.formatProperties(desc.depthFormat).optimalTilingFeatures &
+                VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) == 0) {
+    return device.fail(Status::Unsupported, VK_SUCCESS,
+                       "ViewDesc::depthFormat is VkFormat %d, but must be a depth format of this "
+                       "device, or VK_FORMAT_UNDEFINED for none.",
+                       static_cast<int>(desc.depthFormat));
+  }
+  const VkPhysicalDeviceLimits& limits = device.limits();
+  const VkSampleCountFlags counts =
+      limits.framebufferColorSampleCounts &
+      (depth ? limits.framebufferDepthSampleCounts : ~VkSampleCountFlags{0});
+  if ((counts & desc.samples) == 0 || !std::has_single_bit(static_cast<uint32_t>(desc.samples))) {
+    return device.fail(Status::Unsupported, VK_SUCCESS,
+                       "ViewDesc::samples is %u, but must be one of this device's sample counts, "
+                       "the bits of 0x%x.",
+                       static_cast<uint32_t>(desc.samples), counts);
   }
   if (desc.viewMask != 0) {
     return device.fail(Status::Unsupported, VK_SUCCESS,
@@ -139,6 +158,11 @@ Status View::makePipelines() {
 Status View::recordSky(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw) {
   Status status = sky::checkDraw(device_, desc_, draw);
   if (status != Status::Ok) return status;
+  if (&tables.resources() != &resources_) {
+    return device_.fail(Status::InvalidArgument, VK_SUCCESS,
+                        "recordSky got tables of another context, but a view draws with those of "
+                        "its own.");
+  }
   if (tables.desc().mie != desc_.mie) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "The tables store single Mie scattering %s, but ViewDesc::mie says %s.",

@@ -21,8 +21,8 @@ layout(push_constant) uniform SkyConstants {
   vec4 forwardPixel;      // angle of a pixel at the centre, radians
   vec4 rightHalfAngle;    // scaled by tan(fov / 2) and aspect; fisheye: unit, half the circle's angle
   vec4 downMapTexel;      // scaled by tan(fov / 2), down the image; metres of a map texel
-  vec4 sunDiscChord;      // towards the sun; 2 sin(radius / 2) of its disc
-  vec4 irradianceDisc;    // solar irradiance times radianceScale; 1 / solid angle of the disc
+  vec4 sunDiscChord;      // towards the sun; chord to where the drawn disc's edge is at 1/2
+  vec4 irradianceDisc;    // solar irradiance times radianceScale; the disc's radiance per unit of it
   vec4 circleScale;       // xy: ndc to units of the fisheye's circle
 };
 
