@@ -136,7 +136,8 @@ Result<Parameters> findAtmosphere(const std::string& nameOrPath) {
   return readAtmosphere(nameOrPath);
 }
 
-std::string firstDifference(const Parameters& a, const Parameters& b) {
+std::string firstDifference(const Parameters& a, const Parameters& b, const std::string& whereA,
+                            const std::string& whereB) {
   const OrderedJson left = atmosphereToJson(a).flatten();
   const OrderedJson right = atmosphereToJson(b).flatten();
   for (const OrderedJson* keys : {&left, &right}) {
@@ -148,7 +149,7 @@ std::string firstDifference(const Parameters& a, const Parameters& b) {
       std::string field = key.substr(1);
       for (char& c : field) c = c == '/' ? '.' : c;
       const auto show = [](const OrderedJson* v) { return v == nullptr ? "absent" : v->dump(); };
-      return field + " is " + show(x) + " and " + show(y);
+      return field + " is " + show(x) + whereA + " and " + show(y) + whereB;
     }
   }
   return {};

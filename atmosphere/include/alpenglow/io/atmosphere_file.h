@@ -21,7 +21,8 @@ Done writeAtmosphere(const std::string& path, const Parameters& parameters);
 Result<Parameters> findAtmosphere(const std::string& nameOrPath);
 
 /// Empty when both describe the same atmosphere, else the first field that differs with both
-/// values: "mie.asymmetry is 0.76 and 0.8".
-std::string firstDifference(const Parameters& a, const Parameters& b);
+/// values, each followed by its `where`: "mie.asymmetry is 0.76 in the file and 0.8 in the scene".
+std::string firstDifference(const Parameters& a, const Parameters& b,
+                            const std::string& whereA = "", const std::string& whereB = "");
 
 }  // namespace alpenglow::io

@@ -1,0 +1,136 @@
+#include "arguments.h"
+
+#include <alpenglow/io/scene_file.h>
+#include <alpenglow/io/table_file.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace alpenglow::cli {
+namespace {
+
+using Check = std::function<std::string(const std::string&)>;
+
+bool isWholeNumber(const std::string& text) {
+  return !text.empty() && text.size() <= 9 &&
+         text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+Check oneOf(std::vector<std::string> values) {
+  return [values](const std::string& text) {
+    if (std::find(values.begin(), values.end(), text) != values.end()) return std::string();
+    std::string list;
+    for (size_t i = 0; i < values.size(); ++i) {
+      if (i > 0) list += i + 1 == values.size() ? " or " : ", ";
+      list += "'" + values[i] + "'";
+    }
+    return "'" + text + "' is unknown, expected " + list;
+  };
+}
+
+Check sizeBy(bool (*parse)(const std::string&, TableSizes*), const char* shape) {
+  return [parse, shape](const std::string& text) {
+    TableDesc desc = io::resolved({});
+    if (!parse(text, &desc.sizes)) {
+      return "'" + text + "' is not of the form " + shape + " with whole numbers from 2 to " +
+             std::to_string(io::kMaxTableSide);
+    }
+    std::string error = io::checkSizes(desc).error;
+    if (!error.empty()) error.pop_back();  // The full stop; more is put around it.
+    return error;
+  };
+}
+
+std::string checkOrders(const std::string& text) {
+  const uint32_t orders = isWholeNumber(text) ? parseOrders(text) : 0;
+  if (orders >= 1 && orders <= io::kMaxOrders) return {};
+  return "'" + text + "' is not a whole number from 1 to " + std::to_string(io::kMaxOrders);
+}
+
+std::string checkPictureSize(const std::string& text) {
+  uint32_t width = 0;
+  uint32_t height = 0;
+  parsePictureSize(text, &width, &height);
+  const auto good = [](uint32_t side) { return side >= 1 && side <= io::kMaxPictureSide; };
+  if (good(width) && good(height)) return {};
+  return "'" + text + "' is not of the form WxH with whole numbers from 1 to " +
+         std::to_string(io::kMaxPictureSide);
+}
+
+}  // namespace
+
+uint32_t parseOrders(const std::string& text) { return static_cast<uint32_t>(std::stoul(text)); }
+
+void parsePictureSize(const std::string& text, uint32_t* width, uint32_t* height) {
+  const size_t times = std::min(text.find('x'), text.size());
+  const std::string sides[2] = {text.substr(0, times),
+                                text.substr(std::min(times + 1, text.size()))};
+  *width = isWholeNumber(sides[0]) ? static_cast<uint32_t>(std::stoul(sides[0])) : 0;
+  *height = isWholeNumber(sides[1]) ? static_cast<uint32_t>(std::stoul(sides[1])) : 0;
+}
+
+const char* TableArguments::firstShapeOption() const {
+  if (solver) return "--solver";
+  if (sizeTransmittance) return "--size-transmittance";
+  if (sizeIrradiance) return "--size-irradiance";
+  if (sizeScattering) return "--size-scattering";
+  if (format) return "--format";
+  return mie ? "--mie" : nullptr;
+}
+
+void addTableOptions(CLI::App* command, TableArguments* arguments) {
+  const auto add = [&](const char* name, std::optional<std::string>* target, const char* type,
+                       const char* help, Check check) {
+    command->add_option(name, *target, help)
+        ->type_name(type)
+        ->check(std::move(check))
+        ->group("Tables");
+  };
+  add("--solver", &arguments->solver, "standard", "How the tables are solved (default standard)",
+      oneOf({"standard"}));
+  add("--orders", &arguments->orders, "N", "Most events of a path, 1 to 64 (default 5)",
+      checkOrders);
+  add("--size-transmittance", &arguments->sizeTransmittance, "MUxR",
+      "Texels of the transmittance (default 256x64)", sizeBy(io::parseTransmittanceSize, "MUxR"));
+  add("--size-irradiance", &arguments->sizeIrradiance, "MUSxR",
+      "Texels of the irradiance (default 64x16)", sizeBy(io::parseIrradianceSize, "MUSxR"));
+  add("--size-scattering", &arguments->sizeScattering, "RxMUxMUSxNU",
+      "Texels of the scattering (default 32x128x32x8)",
+      sizeBy(io::parseScatteringSize, "RxMUxMUSxNU"));
+  add("--format", &arguments->format, "half|float", "Numbers of the tables (default half)",
+      oneOf({"half", "float"}));
+  add("--mie", &arguments->mie, "full|packed",
+      "Single Mie scattering in three channels or in one (default full)",
+      oneOf({"full", "packed"}));
+}
+
+void addTableFileOption(CLI::App* command, TableArguments* arguments) {
+  command->add_option("--tables", arguments->tables, "Load baked tables instead of baking")
+      ->type_name("TABLES.exr")
+      ->group("Tables");
+}
+
+void addRunOptions(CLI::App* command, const std::string& outputHelp, RunArguments* arguments) {
+  command->add_option("-o,--output", arguments->output, outputHelp)->required()->type_name("FILE");
+  command->add_option("--device", arguments->device, "Vulkan device, by index or part of its name")
+      ->type_name("INDEX|NAME");
+  command->add_option("--report", arguments->report, "Write what was done and what it cost")
+      ->type_name("FILE.json");
+}
+
+void addSizeOption(CLI::App* command, std::string* size) {
+  command->add_option("--size", *size, "Pixels of the picture (default: the scene's)")
+      ->type_name("WxH")
+      ->check(checkPictureSize);
+}
+
+void addMethodOption(CLI::App* command, std::string* method) {
+  command
+      ->add_option("--method", *method,
+                   "tables: on the device (default); reference: in double precision, with "
+                   "--orders 1")
+      ->type_name("tables|reference")
+      ->check(oneOf({"tables", "reference"}));
+}
+
+}  // namespace alpenglow::cli

@@ -1,0 +1,67 @@
+// What the command line gave, and how its options are declared.
+#pragma once
+
+#include <alpenglow/tables.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace alpenglow::cli {
+
+/// Choices about the tables; what was not given is empty.
+struct TableArguments {
+  std::optional<std::string> solver;
+  std::optional<std::string> orders;
+  std::optional<std::string> sizeTransmittance;
+  std::optional<std::string> sizeIrradiance;
+  std::optional<std::string> sizeScattering;
+  std::optional<std::string> format;
+  std::optional<std::string> mie;
+  std::string tables;       ///< Of render and probe: a table file to load.
+  bool keepOrders = false;  ///< Of bake.
+
+  /// The name of the first option about the shape of tables that was given, for sentences.
+  const char* firstShapeOption() const;
+};
+
+/// Where the work runs and what is written about it.
+struct RunArguments {
+  std::string device;
+  std::string output;
+  std::string report;
+};
+
+struct BakeArguments {
+  std::string atmosphere;
+  TableArguments tables;
+  RunArguments run;
+};
+
+struct RenderArguments {
+  std::string scene;
+  std::string size;
+  TableArguments tables;
+  RunArguments run;
+};
+
+struct ProbeArguments {
+  std::string atmosphere;
+  std::string queries;
+  std::string method = "tables";
+  TableArguments tables;
+  RunArguments run;
+};
+
+void addTableOptions(CLI::App* command, TableArguments* arguments);
+void addTableFileOption(CLI::App* command, TableArguments* arguments);
+void addRunOptions(CLI::App* command, const std::string& outputHelp, RunArguments* arguments);
+void addSizeOption(CLI::App* command, std::string* size);
+void addMethodOption(CLI::App* command, std::string* method);
+
+/// Whole numbers of a text that an option's check has accepted.
+uint32_t parseOrders(const std::string& text);
+void parsePictureSize(const std::string& text, uint32_t* width, uint32_t* height);
+
+}  // namespace alpenglow::cli

@@ -1,0 +1,147 @@
+// alpenglow: bakes atmospheres, renders scenes and answers point queries. See docs/.
+#include <alpenglow/io/file.h>
+#include <alpenglow/version.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+
+#include "commands.h"
+#include "failure.h"
+
+namespace alpenglow::cli {
+
+void checkOutputs(const RunArguments& arguments) {
+  check(io::checkOutput(arguments.output));
+  if (arguments.report.empty()) return;
+  check(io::checkOutput(arguments.report));
+  std::error_code code;
+  const std::filesystem::path output = std::filesystem::absolute(arguments.output, code);
+  const std::filesystem::path report = std::filesystem::absolute(arguments.report, code);
+  if (output.lexically_normal() == report.lexically_normal() &&
+      !std::filesystem::is_character_file(output, code)) {
+    throw Failure("-o and --report both name '" + arguments.report + "'.", Failure::kUsage);
+  }
+}
+
+namespace {
+
+struct Arguments {
+  std::string preset;
+  BakeArguments bake;
+  RenderArguments render;
+  ProbeArguments probe;
+};
+
+constexpr const char* kAtmosphereHelp = "A preset's name, an atmosphere file or a scene file";
+
+void addPresets(CLI::App* app, Arguments* arguments) {
+  CLI::App* command = app->add_subcommand("presets", "List the atmospheres, or print one as JSON");
+  command->add_option("NAME", arguments->preset, "The atmosphere to print");
+  command->callback([arguments] { runPresets(arguments->preset); });
+}
+
+void addBake(CLI::App* app, Arguments* arguments) {
+  BakeArguments* bake = &arguments->bake;
+  CLI::App* command = app->add_subcommand("bake", "Bake the tables of an atmosphere and save them");
+  command->add_option("ATMOSPHERE", bake->atmosphere, kAtmosphereHelp)->required();
+  addRunOptions(command, "The table file to write, an EXR", &bake->run);
+  addTableOptions(command, &bake->tables);
+  command
+      ->add_flag("--keep-orders", bake->tables.keepOrders,
+                 "Save the tables of each scattering order too")
+      ->group("Tables");
+  command->callback([bake] { runBake(*bake); });
+}
+
+void addRender(CLI::App* app, Arguments* arguments) {
+  RenderArguments* render = &arguments->render;
+  CLI::App* command = app->add_subcommand("render", "Render a scene to a picture");
+  command->add_option("SCENE", render->scene, "A sample scene's name or a scene file")->required();
+  addRunOptions(command,
+                "The picture to write: .exr for linear radiance, .png for an exposed and tone "
+                "mapped picture",
+                &render->run);
+  addSizeOption(command, &render->size);
+  addTableOptions(command, &render->tables);
+  addTableFileOption(command, &render->tables);
+  command->callback([render] { runRender(*render); });
+}
+
+void addProbe(CLI::App* app, Arguments* arguments) {
+  ProbeArguments* probe = &arguments->probe;
+  CLI::App* command = app->add_subcommand("probe", "Answer point queries");
+  command->add_option("ATMOSPHERE", probe->atmosphere, kAtmosphereHelp)->required();
+  command->add_option("--queries", probe->queries, "The queries to answer")
+      ->required()
+      ->type_name("Q.json");
+  addRunOptions(command, "The answers to write, as JSON", &probe->run);
+  addMethodOption(command, &probe->method);
+  addTableOptions(command, &probe->tables);
+  addTableFileOption(command, &probe->tables);
+  command->callback([probe] { runProbe(*probe); });
+}
+
+// CLI11's message as one sentence.
+std::string usageSentence(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && (text.back() == '.' || text.back() == ' ')) text.pop_back();
+  return text + "; --help lists what there is.";
+}
+
+void checkCommand(const CLI::App& app, int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (argc > 1 && first.rfind("-", 0) == 0) return;
+  std::string list;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) {
+    if (command->get_name() == first) return;
+    list += (list.empty() ? "" : ", ") + command->get_name();
+  }
+  throw Failure((argc > 1 ? "The command '" + first + "' is unknown" : "No command was given") +
+                    "; the commands are " + list + ".",
+                Failure::kUsage);
+}
+
+int parseAndRun(int argc, char** argv) {
+  CLI::App app("An atmosphere for Vulkan engines: bakes, renders and probes it.", "alpenglow");
+  app.set_version_flag("--version", "alpenglow " ALPENGLOW_VERSION_STRING,
+                       "Print the version and exit");
+  app.set_help_flag("-h,--help", "Print this help and exit");
+  app.require_subcommand(1);
+  Arguments arguments;
+  addPresets(&app, &arguments);
+  addBake(&app, &arguments);
+  addRender(&app, &arguments);
+  addProbe(&app, &arguments);
+  checkCommand(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0) throw Failure(usageSentence(error.what()), Failure::kUsage);
+    std::ostringstream ignored;
+    app.exit(error, std::cout, ignored);
+  }
+  std::cout.flush();
+  if (!std::cout) throw Failure("Cannot write to the standard output.");
+  return 0;
+}
+
+}  // namespace
+}  // namespace alpenglow::cli
+
+int main(int argc, char** argv) {
+  try {
+    return alpenglow::cli::parseAndRun(argc, argv);
+  } catch (const alpenglow::cli::Failure& failure) {
+    std::fprintf(stderr, "%s\n", failure.what());
+    return failure.exitStatus();
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "There is not enough memory for this.\n");
+  } catch (const std::exception& problem) {
+    std::fprintf(stderr, "The program failed: %s.\n", problem.what());
+  }
+  return alpenglow::cli::Failure::kFailed;
+}

@@ -1,0 +1,51 @@
+#include <alpenglow/io/image_file.h>
+#include <alpenglow/io/tone_map.h>
+
+#include "commands.h"
+#include "failure.h"
+#include "picture.h"
+#include "sample_scenes.h"
+#include "tables.h"
+
+namespace alpenglow::cli {
+namespace {
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+void writePicture(const std::string& path, const io::Scene& scene, const io::LinearImage& image) {
+  if (endsWith(path, ".exr")) {
+    check(io::writeExr(path, image));
+    return;
+  }
+  const double exposure = scene.exposure ? *scene.exposure : io::automaticExposure(image);
+  check(io::writePng(path, io::toneMapped(image, exposure, scene.toneMap)));
+}
+
+}  // namespace
+
+void runRender(const RenderArguments& arguments) {
+  const std::string& output = arguments.run.output;
+  if (!endsWith(output, ".exr") && !endsWith(output, ".png")) {
+    throw Failure("The output '" + output + "' has another ending than .exr or .png.",
+                  Failure::kUsage);
+  }
+  io::Scene scene = take(io::readScene(findScene(arguments.scene)));
+  if (!arguments.size.empty()) parsePictureSize(arguments.size, &scene.width, &scene.height);
+  std::optional<io::AlbedoMap> albedo;
+  if (!scene.albedoMap.empty()) albedo = take(io::readAlbedoMap(scene.albedoMap));
+  TableRequest request = requestTables(arguments.tables, scene.atmosphere, &scene);
+  checkOutputs(arguments.run);
+
+  Session session(arguments.run.device, kCapabilityBake | kCapabilitySky);
+  const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
+  const io::LinearImage image =
+      drawScene(&session, scene, albedo ? &*albedo : nullptr, ready.tables.get(), ready.desc.mie);
+  writePicture(output, scene, image);
+  if (!arguments.run.report.empty()) {
+    writeText(arguments.run.report, io::formatReport(session.report()));
+  }
+}
+
+}  // namespace alpenglow::cli

@@ -1,0 +1,42 @@
+#include "sample_scenes.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include "failure.h"
+
+namespace alpenglow::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> dataFolders() {
+  std::vector<fs::path> folders;
+  if (const char* given = std::getenv("ALPENGLOW_DATA_DIR"); given != nullptr && *given != '\0') {
+    folders.emplace_back(given);
+  }
+  std::error_code code;
+  const fs::path program = fs::read_symlink("/proc/self/exe", code);
+  if (!code) folders.push_back(program.parent_path() / ALPENGLOW_INSTALLED_DATA_DIR);
+  folders.emplace_back(ALPENGLOW_SAMPLES_DIR);
+  return folders;
+}
+
+}  // namespace
+
+std::string findScene(const std::string& nameOrPath) {
+  std::error_code code;
+  if (!nameOrPath.empty() && nameOrPath.find('/') == std::string::npos) {
+    for (const fs::path& folder : dataFolders()) {
+      const fs::path path = folder / "scenes" / (nameOrPath + ".json");
+      if (fs::is_regular_file(path, code)) return path.lexically_normal().string();
+    }
+  }
+  if (!fs::exists(nameOrPath, code)) {
+    throw Failure("There is no sample scene and no file named '" + nameOrPath + "'.");
+  }
+  return nameOrPath;
+}
+
+}  // namespace alpenglow::cli

@@ -1,0 +1,132 @@
+#include "session.h"
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+
+#include "failure.h"
+
+namespace alpenglow::cli {
+namespace {
+
+void keepError(void* user, const Diagnostic& diagnostic) {
+  if (diagnostic.severity == Severity::Error) {
+    *static_cast<std::string*>(user) = diagnostic.message;
+  }
+}
+
+void addSeconds(std::optional<double>* sum, double seconds) {
+  if (seconds >= 0.0) *sum = sum->value_or(0.0) + seconds;
+}
+
+}  // namespace
+
+Session::Session(const std::string& device, CapabilityFlags capabilities) {
+  headless::DeviceOptions options;
+  options.select = device;
+  options.requirements = [capabilities](PFN_vkGetInstanceProcAddr getProcAddr, VkInstance instance,
+                                        VkPhysicalDevice physicalDevice, Requirements* out,
+                                        std::string* missing) {
+    return queryRequirements(getProcAddr, instance, physicalDevice, capabilities, out, keepError,
+                             missing);
+  };
+  std::string error;
+  device_ = headless::Device::create(options, &error);
+  if (!device_) throw Failure(error);
+  ContextDesc desc = device_->contextDesc();
+  desc.capabilities = capabilities;
+  desc.diagnostic = keepError;
+  desc.user = &lastError_;
+  check(createContext(desc, &context_));
+  report_.device = device_->name();
+}
+
+Session::~Session() {
+  if (context_ != nullptr) destroyContext(context_);
+}
+
+void Session::check(Status status) {
+  if (status == Status::Ok) return;
+  throw Failure(lastError_.empty() ? "Vulkan work failed: " + std::string(statusName(status)) + "."
+                                   : lastError_);
+}
+
+double Session::run(const std::function<std::string(VkCommandBuffer)>& record) {
+  ResourceReport before;
+  resourceReport(context_, &before);
+  const auto start = std::chrono::steady_clock::now();
+  std::string pass;
+  std::exception_ptr thrown;  // No exception may cross the headless library.
+  const auto guarded = [&](VkCommandBuffer commands) {
+    try {
+      pass = record(commands);
+      return true;
+    } catch (...) {
+      thrown = std::current_exception();
+      return false;
+    }
+  };
+  std::string error;
+  headless::Timing timing;
+  const bool good = device_->run(guarded, &error, &timing);
+  if (thrown) std::rethrow_exception(thrown);
+  if (!good) throw Failure(error);
+  book(pass, before, timing);
+  collect(context_, device_->frame().completed);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Session::book(const std::string& pass, const ResourceReport& before,
+                   const headless::Timing& timing) {
+  auto entry = std::find_if(report_.passes.begin(), report_.passes.end(),
+                            [&](const io::ReportPass& p) { return p.name == pass; });
+  if (entry == report_.passes.end()) {
+    entry = report_.passes.insert(entry, io::ReportPass{pass, 0, 0, 0, {}, {}});
+  }
+  ResourceReport after;
+  resourceReport(context_, &after);
+  entry->dispatches += after.dispatches - before.dispatches;
+  entry->draws += after.draws - before.draws;
+  entry->bytes = std::max({entry->bytes, before.bytes, after.bytes});
+  addSeconds(&entry->cpuSeconds, timing.cpuSeconds);
+  addSeconds(&entry->gpuSeconds, timing.gpuSeconds);
+  report_.totals.images = std::max({report_.totals.images, before.images, after.images});
+  report_.totals.buffers = std::max({report_.totals.buffers, before.buffers, after.buffers});
+}
+
+headless::HostBuffer Session::hostBuffer(VkDeviceSize size, VkBufferUsageFlags usage) {
+  std::string error;
+  headless::HostBuffer buffer = device_->createHostBuffer(size, usage, &error);
+  if (buffer.buffer() == VK_NULL_HANDLE) throw Failure(error);
+  return buffer;
+}
+
+headless::Image Session::image(VkExtent2D extent, VkFormat format, VkImageUsageFlags usage,
+                               uint32_t levels) {
+  std::string error;
+  headless::Image image = device_->createImage(extent, format, usage, levels, &error);
+  if (image.image() == VK_NULL_HANDLE) throw Failure(error);
+  return image;
+}
+
+io::Report Session::report() {
+  ResourceReport now;
+  resourceReport(context_, &now);
+  io::Report report = report_;
+  report.totals.pipelines = now.pipelines;
+  report.totals.shaderVariants = now.shaderVariants;
+  report.totals.bytes = now.peakBytes;
+  report.totals.dispatches = now.dispatches;
+  report.totals.draws = now.draws;
+  report.totals.images = std::max(report.totals.images, now.images);
+  report.totals.buffers = std::max(report.totals.buffers, now.buffers);
+  return report;
+}
+
+PFN_vkVoidFunction Session::requireFunction(const char* name) {
+  const PFN_vkVoidFunction found = device_->function(name);
+  if (found == nullptr) throw Failure(std::string("The driver lacks ") + name + ".");
+  return found;
+}
+
+}  // namespace alpenglow::cli

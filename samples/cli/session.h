@@ -1,0 +1,62 @@
+// A device with a context on it, and the account of what ran there.
+#pragma once
+
+#include <alpenglow/headless.h>
+#include <alpenglow/io/report_file.h>
+#include <alpenglow/tables.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+
+namespace alpenglow::cli {
+
+class Session {
+ public:
+  /// Throws a Failure when there is no suitable device.
+  Session(const std::string& device, CapabilityFlags capabilities);
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  ~Session();
+
+  headless::Device& device() { return *device_; }
+  Context* context() { return context_; }
+
+  /// Throws a Failure with the library's own sentence unless the status is Ok.
+  void check(Status status);
+
+  /// Records, submits, waits; `record` returns the name of the pass that the work is booked on and
+  /// may throw. Returns the seconds that it took by the clock.
+  double run(const std::function<std::string(VkCommandBuffer)>& record);
+
+  headless::HostBuffer hostBuffer(VkDeviceSize size, VkBufferUsageFlags usage);
+  headless::Image image(VkExtent2D extent, VkFormat format, VkImageUsageFlags usage,
+                        uint32_t levels);
+
+  /// A device function by the type of its pointer: function<PFN_vkCmdDraw>("vkCmdDraw").
+  template <typename Function>
+  Function function(const char* name) {
+    return reinterpret_cast<Function>(requireFunction(name));
+  }
+
+  /// What was done until now.
+  io::Report report();
+
+ private:
+  PFN_vkVoidFunction requireFunction(const char* name);
+  void book(const std::string& pass, const ResourceReport& before, const headless::Timing& timing);
+
+  std::unique_ptr<headless::Device> device_;
+  Context* context_ = nullptr;
+  std::string lastError_;
+  io::Report report_;
+};
+
+/// Tables and views, destroyed before their session.
+struct TablesDeleter {
+  Session* session = nullptr;
+  void operator()(Tables* tables) const { destroyTables(tables, session->device().frame()); }
+};
+using TablesPointer = std::unique_ptr<Tables, TablesDeleter>;
+
+}  // namespace alpenglow::cli
