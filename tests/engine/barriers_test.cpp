@@ -194,6 +194,11 @@ TEST_F(BarriersTest, MemoryBarriersAreMergedAndSentWithImages) {
   barriers_.image(image_, kComputeSampled);
   record();
   EXPECT_TRUE(mock_.memoryBarriers.empty());
+  barriers_.memory(kFragment, 0, kFragment, 0);
+  record();
+  ASSERT_EQ(mock_.memoryBarriers.size(), 1u);
+  EXPECT_EQ(mock_.memoryBarriers[0].srcStageMask, kFragment);
+  EXPECT_EQ(mock_.memoryBarriers[0].dstAccessMask, VK_ACCESS_2_NONE);
 }
 
 TEST_F(BarriersTest, EmptyBatchRecordsNothing) {

@@ -386,6 +386,31 @@ TEST_F(EngineDeviceTest, ImagesAreCheckedBeforeVulkanIsAsked) {
   EXPECT_EQ(mock_.count("vkCreateImage"), 0);
 }
 
+TEST_F(EngineDeviceTest, ImagesAreMadeAsDescribed) {
+  ImageDesc desc;
+  desc.type = VK_IMAGE_TYPE_2D;
+  desc.format = VK_FORMAT_R16G16_SFLOAT;
+  desc.extent = {64, 32, 1};
+  desc.mipLevels = 4;
+  desc.arrayLayers = 6;
+  desc.usage = VK_IMAGE_USAGE_SAMPLED_BIT;
+  desc.name = "a name that is longer than the forty-eight bytes that an image keeps";
+  Image image;
+  ASSERT_EQ(createImage(*device_, desc, &image), Status::Ok);
+  const VkImageCreateInfo& info = mock_.imageInfos.back();
+  EXPECT_EQ(info.imageType, desc.type);
+  EXPECT_EQ(info.format, desc.format);
+  EXPECT_EQ(info.extent.height, 32u);
+  EXPECT_EQ(info.mipLevels, 4u);
+  EXPECT_EQ(info.arrayLayers, 6u);
+  EXPECT_EQ(info.usage, desc.usage);
+  EXPECT_EQ(info.tiling, VK_IMAGE_TILING_OPTIMAL);
+  EXPECT_EQ(info.initialLayout, VK_IMAGE_LAYOUT_UNDEFINED);
+  EXPECT_EQ(std::string(image.name).size(), 47u);
+  EXPECT_EQ(image.state.layout, VK_IMAGE_LAYOUT_UNDEFINED);
+  destroyImage(*device_, &image);
+}
+
 TEST_F(EngineDeviceTest, TwoQueueFamiliesMakeImagesConcurrent) {
   Image exclusive = makeImage();
   EXPECT_EQ(mock_.imageInfos.back().sharingMode, VK_SHARING_MODE_EXCLUSIVE);
