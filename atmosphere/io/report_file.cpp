@@ -9,7 +9,7 @@ namespace {
 
 OrderedJson secondsOrNull(const std::optional<double>& seconds) {
   if (!seconds || !std::isfinite(*seconds)) return nullptr;
-  return *seconds;
+  return std::round(*seconds * 1e6) / 1e6;  // The clocks know no more.
 }
 
 }  // namespace

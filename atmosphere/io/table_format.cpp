@@ -1,6 +1,7 @@
 #include "atmosphere/io/table_format.h"
 
 #include <OpenImageIO/hash.h>
+#include <OpenImageIO/imageio.h>
 
 #include <array>
 #include <cstdio>
@@ -26,17 +27,22 @@ void fillZeros(TableSizes* sizes) {
   fill(&sizes->scatteringNu, defaults.scatteringNu);
 }
 
-TablePart part(const std::string& name, uint32_t width, uint32_t height, uint32_t depth) {
-  return {name, width, height, depth, {}};
+TablePart irradiancePart(const TableDesc& desc, const std::string& name) {
+  return {name, desc.sizes.irradianceMuS, desc.sizes.irradianceR, 1, desc.format, {}};
 }
 
-TablePart irradiancePart(const TableSizes& sizes, const std::string& name) {
-  return part(name, sizes.irradianceMuS, sizes.irradianceR, 1);
+TablePart scatteringPart(const TableDesc& desc, const std::string& name) {
+  const TableSizes& sizes = desc.sizes;
+  return {name,
+          sizes.scatteringMuS * sizes.scatteringNu,
+          sizes.scatteringMu,
+          sizes.scatteringR,
+          desc.format,
+          {}};
 }
 
-TablePart scatteringPart(const TableSizes& sizes, const std::string& name) {
-  return part(name, sizes.scatteringMuS * sizes.scatteringNu, sizes.scatteringMu,
-              sizes.scatteringR);
+OIIO::TypeDesc typeOf(TableFormat format) {
+  return format == TableFormat::Half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
 }
 
 // "AxBxC..." of exactly `count` whole numbers from 1 to kMaxTableSide.
@@ -110,20 +116,36 @@ Done checkSizes(const TableDesc& desc) {
 std::vector<TablePart> expectedParts(const TableDesc& desc) {
   const TableSizes& sizes = desc.sizes;
   std::vector<TablePart> parts = {
-      part("optical_depth", sizes.transmittanceMu, sizes.transmittanceR, 1),
-      irradiancePart(sizes, "irradiance"), scatteringPart(sizes, "scattering")};
-  if (desc.mie == MieStorage::Full) parts.push_back(scatteringPart(sizes, "single_mie"));
+      {"optical_depth", sizes.transmittanceMu, sizes.transmittanceR, 1, desc.format, {}},
+      irradiancePart(desc, "irradiance"),
+      scatteringPart(desc, "scattering")};
+  if (desc.mie == MieStorage::Full) parts.push_back(scatteringPart(desc, "single_mie"));
   return parts;
 }
 
 std::optional<TablePart> orderPart(const TableDesc& desc, const std::string& name) {
   for (uint32_t order = 1; order <= desc.orders; ++order) {
     const std::string suffix = "_order_" + std::to_string(order);
-    if (name == "irradiance" + suffix) return irradiancePart(desc.sizes, name);
-    if (name == "scattering" + suffix) return scatteringPart(desc.sizes, name);
-    if (order == 1 && name == "single_mie" + suffix) return scatteringPart(desc.sizes, name);
+    if (name == "irradiance" + suffix) return irradiancePart(desc, name);
+    if (name == "scattering" + suffix) return scatteringPart(desc, name);
+    if (order == 1 && name == "single_mie" + suffix) return scatteringPart(desc, name);
   }
   return std::nullopt;
+}
+
+size_t expectedBytes(const TablePart& part) {
+  return size_t{part.width} * part.height * part.depth *
+         (part.format == TableFormat::Half ? 8 : 16);
+}
+
+void convertTexels(TablePart* part, TableFormat format) {
+  if (part->format == format) return;
+  const OIIO::TypeDesc from = typeOf(part->format);
+  part->format = format;
+  std::vector<uint8_t> converted(expectedBytes(*part));
+  OIIO::convert_pixel_values(from, part->texels.data(), typeOf(format), converted.data(),
+                             static_cast<int>(part->texels.size() / from.size()));
+  part->texels = std::move(converted);
 }
 
 std::string transmittanceSizeText(const TableSizes& sizes) {

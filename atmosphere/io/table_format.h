@@ -30,8 +30,13 @@ std::optional<size_t> findChecksum(const std::string& bytes);
 /// are the same afterwards.
 std::string checksum(std::string* bytes, size_t digits);
 
-/// Bytes of a texel: RGBA.
-inline size_t texelBytes(TableFormat format) { return format == TableFormat::Half ? 8 : 16; }
+/// Bytes that the texels of a part must have.
+size_t expectedBytes(const TablePart& part);
+
+/// Whether a part may have its format: that of the description, except for the optical depth.
+inline bool mayHaveFormat(const TablePart& part, const TableDesc& desc) {
+  return part.format == desc.format || part.name == "optical_depth";
+}
 
 /// Shape of a part of a single order, without texels; none when no order's part has this name.
 std::optional<TablePart> orderPart(const TableDesc& desc, const std::string& name);

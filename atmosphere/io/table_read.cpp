@@ -62,11 +62,9 @@ std::string readDescription(const OIIO::ImageSpec& spec, TableFile* file) {
 }
 
 // Compares a part's header with its expected shape, so that nothing is allocated for a wrong one.
-bool hasShape(const OIIO::ImageSpec& spec, const TablePart& part, TableFormat format) {
-  const OIIO::TypeDesc type =
-      format == TableFormat::Half ? OIIO::TypeDesc::HALF : OIIO::TypeDesc::FLOAT;
-  return spec.nchannels == 4 && spec.format == type && spec.channelformats.empty() && !spec.deep &&
-         spec.depth == 1 && spec.tile_width == 0 && spec.x == 0 && spec.y == 0 &&
+bool hasShape(const OIIO::ImageSpec& spec, const TablePart& part, const TableDesc& desc) {
+  return spec.nchannels == 4 && mayHaveFormat(part, desc) && spec.channelformats.empty() &&
+         !spec.deep && spec.depth == 1 && spec.tile_width == 0 && spec.x == 0 && spec.y == 0 &&
          spec.width == static_cast<int>(part.width) &&
          spec.height == static_cast<int>(part.height * part.depth);
 }
@@ -84,12 +82,13 @@ std::string readPart(OIIO::ImageInput* input, int index, bool keep, TableFile* f
   }
   const std::string shown = std::string("'").append(oneLine(name)) + "'";
   if (!part) return "has a part " + shown + " that doesn't belong there";
-  if (!hasShape(spec, *part, file->desc.format)) {
+  const bool isHalf = spec.format == OIIO::TypeDesc::HALF;
+  part->format = isHalf ? TableFormat::Half : TableFormat::Float;
+  if ((!isHalf && spec.format != OIIO::TypeDesc::FLOAT) || !hasShape(spec, *part, file->desc)) {
     return "has a part " + shown + " of another shape than its description says";
   }
   if (at >= expected.size() && !keep) return {};
-  part->texels.resize(size_t{part->width} * part->height * part->depth *
-                      texelBytes(file->desc.format));
+  part->texels.resize(expectedBytes(*part));
   if (!input->read_image(index, 0, 0, 4, spec.format, part->texels.data())) {
     return "is damaged in its part " + shown + ": " + oneLine(input->geterror());
   }

@@ -40,7 +40,7 @@ std::vector<OIIO::ImageSpec> specsOf(const TableFile& file) {
   int height = 0;
   for (const TablePart& part : file.parts) {
     OIIO::ImageSpec spec(static_cast<int>(part.width), static_cast<int>(part.height * part.depth),
-                         4, texelType(file.desc.format));
+                         4, texelType(part.format));
     spec.attribute("oiio:subimagename", part.name);
     spec.attribute("compression", "zip");
     spec.attribute("DateTime", "");  // Else the library adds the time, and no two files are equal.
@@ -70,10 +70,9 @@ Done checkParts(const TableFile& file) {
   for (size_t i = 0; i < expected.size(); ++i) {
     const TablePart& want = expected[i];
     const TablePart& have = file.parts[i];
-    const size_t bytes =
-        size_t{want.width} * want.height * want.depth * texelBytes(file.desc.format);
     if (have.name != want.name || have.width != want.width || have.height != want.height ||
-        have.depth != want.depth || have.texels.size() != bytes) {
+        have.depth != want.depth || !mayHaveFormat(have, file.desc) ||
+        have.texels.size() != expectedBytes(have)) {
       return {"The table '" + have.name + "' doesn't have the shape of '" + want.name + "'."};
     }
   }
@@ -110,7 +109,8 @@ Done sealAndVerify(const std::string& path, const TableFile& file) {
   const Result<TableFile> again = readTableFile(path, true);
   if (!again) return {again.error};
   for (size_t i = 0; i < file.parts.size(); ++i) {
-    if (i >= again->parts.size() || again->parts[i].texels != file.parts[i].texels) {
+    if (i >= again->parts.size() || again->parts[i].format != file.parts[i].format ||
+        again->parts[i].texels != file.parts[i].texels) {
       return {"the part '" + file.parts[i].name + "' reads back otherwise than it was written"};
     }
   }

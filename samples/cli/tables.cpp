@@ -22,6 +22,10 @@ TablesPointer emptyTables(Session* session, const Parameters& parameters, const 
   return TablesPointer(tables, TablesDeleter{session});
 }
 
+TableFormat formatOf(const TableInfo& info) {
+  return info.format == VK_FORMAT_R32G32B32A32_SFLOAT ? TableFormat::Float : TableFormat::Half;
+}
+
 io::TablePart readTable(Session* session, Tables* tables, TableId id, const std::string& name) {
   TableInfo info;
   session->check(tableInfo(tables, id, &info));
@@ -31,7 +35,7 @@ io::TablePart readTable(Session* session, Tables* tables, TableId id, const std:
     session->check(recordTableReadback(tables, commands, id, buffer.buffer(), 0));
     return "readback";
   });
-  io::TablePart part{name, info.width, info.height, info.depth, {}};
+  io::TablePart part{name, info.width, info.height, info.depth, formatOf(info), {}};
   part.texels.resize(info.bytes);
   std::memcpy(part.texels.data(), buffer.data(), info.bytes);
   return part;
@@ -86,16 +90,19 @@ void checkAgainst(const TableArguments& arguments, const io::Scene* scene, const
   compare(arguments.mie.has_value(), "--mie", mie(wanted), mie(file));
 }
 
-TablesPointer uploadTables(Session* session, const Parameters& parameters,
-                           const io::TableFile& file) {
+TablesPointer uploadTables(Session* session, const Parameters& parameters, io::TableFile file) {
   TablesPointer tables = emptyTables(session, parameters, file.desc);
   const std::pair<TableId, const char*> ids[] = {{TableId::OpticalDepth, "optical_depth"},
                                                  {TableId::Irradiance, "irradiance"},
                                                  {TableId::Scattering, "scattering"},
                                                  {TableId::SingleMie, "single_mie"}};
   for (const auto& [id, name] : ids) {
-    const io::TablePart* part = file.find(name);
-    if (part == nullptr) continue;  // Packed: the reader has checked that all others are there.
+    const auto part = std::find_if(file.parts.begin(), file.parts.end(),
+                                   [&](const io::TablePart& p) { return p.name == name; });
+    if (part == file.parts.end()) continue;  // Packed; the reader has checked all others.
+    TableInfo info;
+    session->check(tableInfo(tables.get(), id, &info));
+    io::convertTexels(&*part, formatOf(info));  // Devices differ in the optical depth's format.
     const headless::HostBuffer buffer =
         session->hostBuffer(part->texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     std::memcpy(buffer.data(), part->texels.data(), part->texels.size());
@@ -191,7 +198,9 @@ TableRequest requestTables(const TableArguments& arguments, const Parameters& pa
 }
 
 ReadyTables obtainTables(Session* session, const Parameters& parameters, TableRequest request) {
-  if (request.file) return {uploadTables(session, parameters, *request.file), request.desc};
+  if (request.file) {
+    return {uploadTables(session, parameters, std::move(*request.file)), request.desc};
+  }
   return {bakeTables(session, parameters, request.desc, nullptr), request.desc};
 }
 

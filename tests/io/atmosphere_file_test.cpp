@@ -184,6 +184,7 @@ TEST(AtmosphereFile, NamesTheFirstDifference) {
   EXPECT_EQ(firstDifference(a, b), "");
   b.mie.asymmetry = 0.8;
   EXPECT_EQ(firstDifference(a, b), "mie.asymmetry is 0.76 and 0.8");
+  EXPECT_EQ(firstDifference(a, b, " here", " there"), "mie.asymmetry is 0.76 here and 0.8 there");
   b = a;
   b.absorption.present = false;
   EXPECT_NE(firstDifference(a, b).find("absorption"), std::string::npos);

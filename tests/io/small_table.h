@@ -22,7 +22,8 @@ inline io::TableFile makeTables(const TableDesc& desc, bool orders) {
   const auto add = [&](const std::string& name, const io::TablePart& shape) {
     io::TablePart part = shape;
     part.name = name;
-    const size_t texel = desc.format == TableFormat::Half ? 8 : 16;
+    if (name == "optical_depth") part.format = TableFormat::Float;
+    const size_t texel = part.format == TableFormat::Half ? 8 : 16;
     part.texels.resize(size_t{part.width} * part.height * part.depth * texel);
     fillTexels(&part.texels, &random);
     file.parts.push_back(part);

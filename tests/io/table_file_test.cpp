@@ -1,6 +1,8 @@
 #include <alpenglow/io/atmosphere_file.h>
 #include <alpenglow/io/table_file.h>
 
+#include <cmath>
+
 #include "small_table.h"
 #include "temporary_folder.h"
 
@@ -27,6 +29,7 @@ void expectSame(const TableFile& a, const TableFile& b, size_t parts) {
     EXPECT_EQ(a.parts[i].width, b.parts[i].width);
     EXPECT_EQ(a.parts[i].height, b.parts[i].height);
     EXPECT_EQ(a.parts[i].depth, b.parts[i].depth);
+    EXPECT_EQ(a.parts[i].format, b.parts[i].format);
     EXPECT_EQ(a.parts[i].texels, b.parts[i].texels);
   }
 }
@@ -106,6 +109,20 @@ TEST(TableFile, OtherFilesAreRefused) {
   expectSentence(readTableFile("/dev/null").error);
   expectSentence(readTableFile(folder.write("a.exr", "hello")).error);
   expectSentence(readTableFile(folder.write("a.exr", "\x76\x2F\x31\x01 and more")).error);
+}
+
+TEST(TableFile, TexelsChangeTheirFormat) {
+  TablePart part = makeTables(smallDesc(), false).parts[1];
+  const std::vector<uint8_t> halves = part.texels;
+  convertTexels(&part, TableFormat::Float);
+  EXPECT_EQ(part.texels.size(), 2 * halves.size());
+  const auto bits = static_cast<uint32_t>(halves[0] | halves[1] << 8);  // Positive and normal.
+  float value = 0.0f;
+  std::memcpy(&value, part.texels.data(), sizeof value);
+  EXPECT_EQ(value, std::ldexp(static_cast<float>(bits % 1024) + 1024.0f,
+                              static_cast<int>(bits / 1024) - 25));
+  convertTexels(&part, TableFormat::Half);
+  EXPECT_EQ(part.texels, halves);
 }
 
 TEST(TableSizes, TextGoesBothWays) {

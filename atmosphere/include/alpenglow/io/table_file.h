@@ -1,10 +1,11 @@
 // Table files: the baked tables as a multi-part EXR that any EXR tool opens, with the parameters,
 // the version and a checksum of the whole file inside.
 //
-// Parts: "optical_depth", "irradiance", "scattering", and "single_mie" unless it is packed; with
-// the orders kept also "scattering_order_N", "irradiance_order_N" and "single_mie_order_1". All are
-// RGBA, half or float as baked. A 3D table is a 2D image: its slices of r stand below each other,
-// so a part's bytes are those of the table's tightly packed copy.
+// Parts: "optical_depth", "irradiance", "scattering", and "single_mie" unless it is packed; with the
+// orders kept also "scattering_order_N", "irradiance_order_N" and "single_mie_order_1". All are RGBA,
+// half or float as baked; the optical depth is float wherever the device allows. A 3D table is a 2D
+// image: its slices of r stand below each other, so a part's bytes are those of the table's tightly
+// packed copy.
 #pragma once
 
 #include <alpenglow/io/result.h>
@@ -29,7 +30,8 @@ struct TablePart {
   uint32_t width = 0;
   uint32_t height = 0;
   uint32_t depth = 1;
-  std::vector<uint8_t> texels;
+  TableFormat format = TableFormat::Half;
+  std::vector<uint8_t> texels;  ///< Bytes: width x height x depth x RGBA.
 };
 
 struct TableFile {
@@ -47,7 +49,11 @@ TableDesc resolved(TableDesc desc);
 /// Empty, or a sentence about the first size that is out of bounds. `desc` is resolved.
 Done checkSizes(const TableDesc& desc);
 
-/// The parts that a file of this description must have, without texels.
+/// Numbers of a part in another format; what a half can't hold becomes infinite or 0.
+void convertTexels(TablePart* part, TableFormat format);
+
+/// The parts that a file of this description must have, without texels; the optical depth may have
+/// another format than the description.
 std::vector<TablePart> expectedParts(const TableDesc& desc);
 
 /// A size as the command line and files spell it: "256x64", "32x128x32x8" (r x mu x mu_s x nu).
