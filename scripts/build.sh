@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds everything, Release, into build/; the program is build/bin/alpenglow. Arguments go to the
+# Builds the libraries and the program build/bin/alpenglow, Release, into build/. Arguments go to the
 # configuring cmake.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -11,5 +11,5 @@ memory_jobs="$(awk '/MemAvailable/ { jobs = int($2 / 1048576); print jobs < 1 ? 
 if (( memory_jobs < jobs )); then
   jobs="$memory_jobs"
 fi
-cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release "$@"
+cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DALPENGLOW_BUILD_TESTS=OFF "$@"
 cmake --build build -j "$jobs"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds everything and runs the tests, but for those that take long (label "long"). Arguments go
-# to ctest.
+# Builds everything, tests included, and runs them, but for those that take long (label "long").
+# Arguments go to ctest.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
