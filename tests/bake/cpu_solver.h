@@ -57,7 +57,7 @@ inline Real4 Source::sample(Real u, Real v, Real w) const {
   return sum;
 }
 
-inline Spectrum readOpticalDepth(Real2 uv) {
+inline Spectrum readTransmittance(Real2 uv) {
   return Spectrum(sources.opticalDepth.sample(uv[0], uv[1], 0.5));
 }
 inline Spectrum readDeltaIrradiance(Real2 uv) {

@@ -36,7 +36,8 @@ struct TableDesc {
 };
 
 /// Checks parameters and sizes, allocates, and records nothing. The tables are then Ok to bake or
-/// to upload. `tables` is destroyed with destroyTables, before its context.
+/// to upload; on a context without kCapabilityBake only to upload, and they take no scratch memory.
+/// `tables` is destroyed with destroyTables, before its context.
 Status createTables(Context* context, const Parameters& parameters, const TableDesc& desc,
                     Tables** out);
 
@@ -67,7 +68,7 @@ Status recordBake(Tables* tables, VkCommandBuffer commands, const FrameInfo& fra
                   BakeProgress* progress);
 
 enum class TableId : uint32_t {
-  OpticalDepth,     ///< -ln T towards the top: x mu, y r. RGB, A = 0.
+  OpticalDepth,     ///< ln(1 + 1e5 tau), T = exp(-tau) towards the top: x mu, y r.
   Irradiance,       ///< E of the sky on the ground, per unit solar irradiance: x mu_s, y r.
   Scattering,       ///< S: C_* = S_R[L0] + S[L_*] / P_R, alpha C_M first channel if packed.
   SingleMie,        ///< C_M = S_M[L0] / P_M; only with MieStorage::Full.

@@ -19,12 +19,14 @@
 #define ALPENGLOW_FINAL_READS
 #include "physics/physics.glsl"
 
-layout(set = ALPENGLOW_SET, binding = 1) uniform sampler2D alpenglowOpticalDepth;
+layout(set = ALPENGLOW_SET, binding = 1) uniform sampler2D alpenglowTransmittanceTable;
 layout(set = ALPENGLOW_SET, binding = 2) uniform sampler2D alpenglowIrradiance;
 layout(set = ALPENGLOW_SET, binding = 3) uniform sampler3D alpenglowScattering;
 layout(set = ALPENGLOW_SET, binding = 4) uniform sampler3D alpenglowSingleMie;
 
-Spectrum readOpticalDepth(vec2 uv) { return textureLod(alpenglowOpticalDepth, uv, 0.0).rgb; }
+Spectrum readTransmittance(vec2 uv) {
+  return textureLod(alpenglowTransmittanceTable, uv, 0.0).rgb;
+}
 Spectrum readIrradiance(vec2 uv) { return textureLod(alpenglowIrradiance, uv, 0.0).rgb; }
 vec4 readScattering(vec3 uvw) { return textureLod(alpenglowScattering, uvw, 0.0); }
 Spectrum readSingleMie(vec3 uvw) { return textureLod(alpenglowSingleMie, uvw, 0.0).rgb; }

@@ -12,7 +12,7 @@ layout(constant_id = 1) const bool kMiePacked = false;
 #define ALPENGLOW_TABLE_READS
 #include "physics/physics.glsl"
 
-layout(set = 0, binding = 1) uniform sampler2D opticalDepthTable;
+layout(set = 0, binding = 1) uniform sampler2D transmittanceTable;
 layout(set = 0, binding = 2) uniform sampler2D deltaIrradianceTable;
 layout(set = 0, binding = 3) uniform sampler3D deltaScatteringTable;
 layout(set = 0, binding = 4) uniform sampler3D deltaMieTable;
@@ -20,7 +20,7 @@ layout(set = 0, binding = 5) uniform sampler3D deltaSourceTable;
 layout(set = 0, binding = 6) uniform sampler2D incidentTable;
 layout(set = 0, binding = 7) uniform sampler2D incidentMieTable;
 
-Spectrum readOpticalDepth(vec2 uv) { return textureLod(opticalDepthTable, uv, 0.0).rgb; }
+Spectrum readTransmittance(vec2 uv) { return textureLod(transmittanceTable, uv, 0.0).rgb; }
 Spectrum readDeltaIrradiance(vec2 uv) { return textureLod(deltaIrradianceTable, uv, 0.0).rgb; }
 Spectrum readDeltaRadiance(vec3 uvw) { return textureLod(deltaScatteringTable, uvw, 0.0).rgb; }
 Spectrum readDeltaMie(vec3 uvw) { return textureLod(deltaMieTable, uvw, 0.0).rgb; }

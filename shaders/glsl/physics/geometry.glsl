@@ -46,12 +46,17 @@ ALPENGLOW_FN Real distanceToTop(IN(Medium) m, Real h, Real mu) {
   return rMu > REAL(0.0) ? gap2 / (rMu + root) : root - rMu;
 }
 
-// Altitude after a distance t: h + (t^2 + 2 r mu t) / (r_t + r). Negative altitudes are clamped.
-ALPENGLOW_FN Real altitudeAt(IN(Medium) m, Real h, Real mu, Real t) {
+// Altitude after a distance t: h + (t^2 + 2 r mu t) / (r_t + r); negative inside the ground.
+ALPENGLOW_FN Real signedAltitudeAt(IN(Medium) m, Real h, Real mu, Real t) {
   Real r = radiusAt(m, h);
   Real gain = t * (t + REAL(2.0) * r * mu);
   Real rt = sqrt(max(r * r + gain, REAL(0.0)));
-  return max(h + gain / (rt + r), REAL(0.0));
+  return h + gain / (rt + r);
+}
+
+// The same for rays above the ground, where rounding must not make it negative.
+ALPENGLOW_FN Real altitudeAt(IN(Medium) m, Real h, Real mu, Real t) {
+  return max(signedAltitudeAt(m, h, mu, t), REAL(0.0));
 }
 
 // Zenith cosines of the view and of the sun after a distance t, at altitude ht = altitudeAt(t).

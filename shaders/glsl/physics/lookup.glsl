@@ -1,5 +1,5 @@
 // Reading the tables. The includer defines, before it includes this:
-//   Spectrum readOpticalDepth(Real2 uv), Spectrum readIrradiance(Real2 uv),
+//   Spectrum readTransmittance(Real2 uv), Spectrum readIrradiance(Real2 uv),
 //   Real4 readScattering(Real3 uvw), Spectrum readSingleMie(Real3 uvw)   hardware-filtered fetches
 //   TableShape shape                                                     sizes of the tables
 // Everything is per unit solar irradiance.
@@ -40,11 +40,29 @@ ALPENGLOW_FN Real2 nuSlice(IN(TableShape) shape, Real nu) {
   return Real2(lower / shape.scatteringNu, slice - lower);
 }
 
+// The table of T holds the logarithm of its optical depth tau, as ln(1 + tau / unit): never negative,
+// 0 where there is no air. Towards the horizon tau grows exponentially from texel to texel, so that
+// interpolating tau is 15 % off there, and T itself 20 to 40 %; interpolating its logarithm 1 %.
+ALPENGLOW_FN Real opticalDepthUnit() { return REAL(1e-5); }
+
+ALPENGLOW_FN Spectrum encodeOpticalDepth(Spectrum depth) {
+  return log(SPECTRUM(REAL(1.0)) + depth / opticalDepthUnit());
+}
+
+ALPENGLOW_FN Spectrum decodeOpticalDepth(Spectrum stored) {
+  return (exp(stored) - SPECTRUM(REAL(1.0))) * opticalDepthUnit();
+}
+
 #ifdef ALPENGLOW_TABLE_READS
+
+// Optical depth towards the top, from the table, whatever is in the way.
+ALPENGLOW_FN Spectrum opticalDepthFromTable(IN(Medium) m, IN(TableShape) shape, Real h, Real mu) {
+  return decodeOpticalDepth(readTransmittance(opticalDepthCoordinate(m, shape, h, mu)));
+}
 
 // Equation 5 from the table, towards the top, whatever is in the way.
 ALPENGLOW_FN Spectrum transmittanceToTop(IN(Medium) m, IN(TableShape) shape, Real h, Real mu) {
-  return exp(-readOpticalDepth(opticalDepthCoordinate(m, shape, h, mu)));
+  return exp(-opticalDepthFromTable(m, shape, h, mu));
 }
 
 // Equation 9 without Lsun: sunlight that arrives at h.

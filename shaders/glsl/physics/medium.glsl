@@ -20,9 +20,15 @@ struct Medium {
   Real unused0, unused1, unused2;
 };
 
-ALPENGLOW_FN Real rayleighDensity(IN(Medium) m, Real h) { return exp(-h / m.rayleighScaleHeight); }
+// Relative densities. Below the ground the exponentials go on for one scale height and stay there:
+// a table of optical depths needs a smooth continuation across the horizon (standard.glsl).
+ALPENGLOW_FN Real rayleighDensity(IN(Medium) m, Real h) {
+  return exp(min(-h / m.rayleighScaleHeight, REAL(1.0)));
+}
 
-ALPENGLOW_FN Real mieDensity(IN(Medium) m, Real h) { return exp(-h / m.mieScaleHeight); }
+ALPENGLOW_FN Real mieDensity(IN(Medium) m, Real h) {
+  return exp(min(-h / m.mieScaleHeight, REAL(1.0)));
+}
 
 ALPENGLOW_FN Real absorptionDensity(IN(Medium) m, Real h) {
   return max(REAL(0.0), REAL(1.0) - abs(h - m.absorptionCenter) / m.absorptionHalfWidth);

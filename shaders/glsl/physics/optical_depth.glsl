@@ -1,19 +1,22 @@
 // Optical depth along rays, equation 5 of the paper before the exponential: the integral of the
 // extinction over an arbitrary profile. Everything that needs it comes through this file.
 
-// Equation 5 towards the top as the standard solver tabulates it: trapezoids of equal length. A
-// direction below the horizon answers for the horizon, so that a table of it interpolates without
-// a step there; who needs to know whether the ground is in the way asks sunVisibility or
-// rayHitsGround.
-ALPENGLOW_FN Spectrum opticalDepthToTop(IN(Medium) m, Real h, Real mu, int trapezoids) {
-  Real muClamped = max(mu, horizonMu(m, h));
-  Real dx = distanceToTop(m, h, muClamped) / Real(trapezoids);
+// Equation 5 towards the top as the standard solver tabulates it, by trapezoids of equal length; on
+// through the ground where that is in the way.
+ALPENGLOW_FN Spectrum opticalDepthThroughGround(IN(Medium) m, Real h, Real mu, int trapezoids) {
+  Real dx = distanceToTop(m, h, mu) / Real(trapezoids);
   Spectrum sum = REAL(0.5) * extinction(m, h);
   for (int i = 1; i <= trapezoids; ++i) {
     Real weight = i == trapezoids ? REAL(0.5) : REAL(1.0);
-    sum += weight * extinction(m, altitudeAt(m, h, muClamped, Real(i) * dx));
+    sum += weight * extinction(m, signedAltitudeAt(m, h, mu, Real(i) * dx));
   }
   return sum * dx;
+}
+
+// The same, but a direction below the horizon answers for the horizon. Who needs to know whether the
+// ground is in the way asks sunVisibility or rayHitsGround.
+ALPENGLOW_FN Spectrum opticalDepthToTop(IN(Medium) m, Real h, Real mu, int trapezoids) {
+  return opticalDepthThroughGround(m, h, max(mu, horizonMu(m, h)), trapezoids);
 }
 
 // Node (in (0, 1)) and weight of the 12-point Gauss-Legendre rule on [0, 1].

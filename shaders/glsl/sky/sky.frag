@@ -34,7 +34,7 @@ vec3 viewDirection(out bool visible) {
     vec2 p = ndc * circleScale.xy;
     float radius = length(p);
     float theta = radius * rightHalfAngle.w;
-    visible = radius <= 1.0;
+    visible = radius <= 1.00001;  // a pixel centre right on the circle is in it, whatever rounds
     vec2 across = p * (sin(theta) / max(radius, 1e-9));
     return normalize(forwardPixel.xyz * cos(theta) + rightHalfAngle.xyz * across.x +
                      downMapTexel.xyz * across.y);
