@@ -23,15 +23,14 @@ Status createTables(Context* context, const Parameters& parameters, const TableD
                     Tables** out) {
   if (context == nullptr || out == nullptr) return Status::InvalidArgument;
   *out = nullptr;
-  Status status = requireCapability(*context, kCapabilityBake, "createTables");
-  if (status != Status::Ok) return status;
   char message[512];
   if (validate(parameters, message, sizeof message) != Status::Ok)
     return context->device->fail(Status::InvalidArgument, VK_SUCCESS, "%s", message);
   const TableDesc full = bake::completed(desc);
-  status = bake::checkTableDesc(*context->device, full);
+  const Status status = bake::checkTableDesc(*context->device, full);
   if (status != Status::Ok) return status;
-  return Tables::create(*context->bake, parameters, full, out);
+  const bool bakes = (context->capabilities & kCapabilityBake) != 0;
+  return Tables::create(*context->bake, parameters, full, bakes, out);
 }
 
 void destroyTables(Tables* tables, const FrameInfo& frame) { Tables::destroy(tables, frame); }

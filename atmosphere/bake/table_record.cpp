@@ -31,6 +31,11 @@ uint64_t texelBytes(VkFormat format) { return format == VK_FORMAT_R32G32B32A32_S
 
 Status Tables::recordBake(VkCommandBuffer commands, const FrameInfo& frame, uint64_t budget,
                           BakeProgress* progress) {
+  if (!bakes_) {
+    return device_.fail(Status::Unsupported, VK_SUCCESS,
+                        "recordBake needs a context with kCapabilityBake, but this one was made "
+                        "without it: its tables can only be uploaded.");
+  }
   if (uploaded_ != 0) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "recordBake was called on tables that were filled by recordTableUpload, "
@@ -138,11 +143,11 @@ uint32_t Tables::imageOf(TableId id) const {
     case TableId::SingleMie:
       return desc_.mie == MieStorage::Full ? bake::kDeltaMie : kNoImage;
     case TableId::OrderIrradiance:
-      return desc_.keepOrders ? bake::kDeltaIrradiance : kNoImage;
+      return desc_.keepOrders && bakes_ ? bake::kDeltaIrradiance : kNoImage;
     case TableId::OrderScattering:
-      return desc_.keepOrders ? bake::kDeltaScattering : kNoImage;
+      return desc_.keepOrders && bakes_ ? bake::kDeltaScattering : kNoImage;
     case TableId::OrderSingleMie:
-      return desc_.keepOrders ? bake::kDeltaMie : kNoImage;
+      return desc_.keepOrders && bakes_ ? bake::kDeltaMie : kNoImage;
   }
   return kNoImage;
 }

@@ -108,14 +108,19 @@ inline namespace v1 {
 
 using bake::kNoImage;
 
-Tables::Tables(bake::Resources& resources, const Parameters& parameters, const TableDesc& desc)
-    : resources_(resources), device_(resources.device()), parameters_(parameters), desc_(desc) {}
+Tables::Tables(bake::Resources& resources, const Parameters& parameters, const TableDesc& desc,
+               bool bakes)
+    : resources_(resources),
+      device_(resources.device()),
+      parameters_(parameters),
+      desc_(desc),
+      bakes_(bakes) {}
 
 Status Tables::create(bake::Resources& resources, const Parameters& parameters,
-                      const TableDesc& desc, Tables** out) {
+                      const TableDesc& desc, bool bakes, Tables** out) {
   *out = nullptr;
   engine::Device& device = resources.device();
-  auto* tables = new (std::nothrow) Tables(resources, parameters, desc);
+  auto* tables = new (std::nothrow) Tables(resources, parameters, desc, bakes);
   if (tables == nullptr) {
     return device.fail(Status::OutOfHostMemory, VK_SUCCESS, "Tables found no host memory.");
   }
@@ -125,7 +130,7 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
   Status status = tables->makeImages();
   if (status == Status::Ok) status = tables->makeUniforms();
   if (status == Status::Ok) status = tables->makeDescriptors();
-  if (status == Status::Ok) status = tables->makePipelines();
+  if (status == Status::Ok && bakes) status = tables->makePipelines();
   if (status != Status::Ok) {
     // Nothing was recorded with these tables: frame 0 has always completed.
     destroy(tables, FrameInfo{});
@@ -169,6 +174,7 @@ Status Tables::makeImages() {
   engine::Image* scratchImages[bake::kImageCount];
   uint32_t persistentCount = 0, scratchCount = 0;
   for (uint32_t i = 0; i < bake::kImageCount; ++i) {
+    if (!bakes_ && !persistent(i)) continue;
     const bool isIncident = i == bake::kIncident || i == bake::kIncidentMie;
     const bool isIrradiance = i == bake::kIrradiance || i == bake::kDeltaIrradiance;
     const bool is2D = i == bake::kOpticalDepth || isIncident || isIrradiance;
@@ -194,7 +200,7 @@ Status Tables::makeImages() {
   Status status =
       engine::allocateAndBind(device_, "Alpenglow tables", VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
                               persistentImages, persistentCount, nullptr, 0, &persistentBlock_);
-  if (status != Status::Ok) return status;
+  if (status != Status::Ok || !bakes_) return status;
   return engine::allocateAndBind(device_, "Alpenglow bake scratch",
                                  VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, scratchImages, scratchCount,
                                  nullptr, 0, &scratchBlock_);
@@ -227,23 +233,24 @@ Status Tables::makeDescriptors() {
       {bake::Resources::tableLayoutBindings(), bake::kTableBindings, 1},
       {bake::Resources::inputLayoutBindings(), bake::kInputBindings, 1},
       {bake::Resources::outputLayoutBindings(), bake::kMaxOutputs, bake::kPassKindCount}};
-  Status status = engine::createPool(device_, parts, 3, "Alpenglow tables", &pool_);
+  Status status = engine::createPool(device_, parts, bakes_ ? 3 : 1, "Alpenglow tables", &pool_);
   if (status != Status::Ok) return status;
   VkDescriptorSetLayout layouts[2 + bake::kPassKindCount];
   layouts[0] = resources_.tableLayout();
   layouts[1] = resources_.inputLayout();
   for (uint32_t i = 0; i < bake::kPassKindCount; ++i) layouts[2 + i] = resources_.outputLayout();
   VkDescriptorSet sets[2 + bake::kPassKindCount] = {};
-  status = engine::allocateSets(device_, pool_, layouts, 2 + bake::kPassKindCount,
+  status = engine::allocateSets(device_, pool_, layouts, bakes_ ? 2 + bake::kPassKindCount : 1,
                                 "Alpenglow tables", sets);
   if (status != Status::Ok) return status;
   tableSet_ = sets[0];
   inputSet_ = sets[1];
   for (uint32_t i = 0; i < bake::kPassKindCount; ++i) outputSets_[i] = sets[2 + i];
-  return writeDescriptors();
+  status = writeTableSet();
+  return status == Status::Ok && bakes_ ? writeBakeSets() : status;
 }
 
-Status Tables::writeDescriptors() {
+Status Tables::writeTableSet() {
   const VkSampler sampler = resources_.sampler();
   // Packed tables have no single Mie of their own: the binding must hold an image all the same.
   const uint32_t mie = desc_.mie == MieStorage::Full ? bake::kDeltaMie : bake::kScattering;
@@ -253,8 +260,11 @@ Status Tables::writeDescriptors() {
       .sampledImage(2, images_[bake::kIrradiance].view, sampler)
       .sampledImage(3, images_[bake::kScattering].view, sampler)
       .sampledImage(4, images_[mie].view, sampler);
-  Status status = table.flush(device_);
-  if (status != Status::Ok) return status;
+  return table.flush(device_);
+}
+
+Status Tables::writeBakeSets() {
+  const VkSampler sampler = resources_.sampler();
   engine::DescriptorWriter input(inputSet_);
   input.uniformBuffer(0, uniforms_.handle)
       .sampledImage(1, images_[bake::kOpticalDepth].view, sampler)
@@ -264,7 +274,7 @@ Status Tables::writeDescriptors() {
       .sampledImage(5, images_[bake::kDeltaSource].view, sampler)
       .sampledImage(6, images_[bake::kIncident].view, sampler)
       .sampledImage(7, images_[bake::kIncidentMie].view, sampler);
-  status = input.flush(device_);
+  Status status = input.flush(device_);
   for (uint32_t kind = 0; kind < bake::kPassKindCount && status == Status::Ok; ++kind) {
     const bake::PassIo& io = bake::passIo(static_cast<bake::PassKind>(kind));
     engine::DescriptorWriter output(outputSets_[kind]);

@@ -40,9 +40,10 @@ inline namespace v1 {
 /// Externally synchronised, as every handle of its kind.
 struct Tables {
  public:
-  /// Both arguments are checked and completed. Allocates; records nothing.
+  /// Both arguments are checked and completed. Allocates; records nothing. Without `bakes` the
+  /// tables can only be uploaded, and nothing is made that a bake alone needs.
   static Status create(bake::Resources& resources, const Parameters& parameters,
-                       const TableDesc& desc, Tables** out);
+                       const TableDesc& desc, bool bakes, Tables** out);
   static void destroy(Tables* tables, const FrameInfo& frame);
 
   Status recordBake(VkCommandBuffer commands, const FrameInfo& frame, uint64_t budget,
@@ -61,12 +62,14 @@ struct Tables {
   Status assertReadable() const;
 
  private:
-  Tables(bake::Resources& resources, const Parameters& parameters, const TableDesc& desc);
+  Tables(bake::Resources& resources, const Parameters& parameters, const TableDesc& desc,
+         bool bakes);
   Status makeImages();
   Status makeUniforms();
   Status makeDescriptors();
   Status makePipelines();
-  Status writeDescriptors();
+  Status writeTableSet();
+  Status writeBakeSets();
   bool persistent(uint32_t image) const;
   uint32_t imageOf(TableId id) const;  ///< kNoImage when these tables have none such.
   bool readable(TableId id) const;
@@ -80,6 +83,7 @@ struct Tables {
   engine::Device& device_;
   Parameters parameters_;
   TableDesc desc_;
+  bool bakes_;
   std::vector<bake::Pass> passes_;
   std::vector<VkPipeline> pipelines_;  ///< One for each pass; owned by the resources.
 

@@ -116,11 +116,12 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddrOfWrap(VkInstance in
 
 }  // namespace
 
-VulkanWrap::VulkanWrap(PFN_vkGetInstanceProcAddr real) : realGetInstanceProcAddr(real) {
+VulkanWrap::VulkanWrap(PFN_vkGetInstanceProcAddr real)
+    : realGetInstanceProcAddr(real), previous_(current) {
   current = this;
 }
 
-VulkanWrap::~VulkanWrap() { current = nullptr; }
+VulkanWrap::~VulkanWrap() { current = previous_; }
 
 PFN_vkGetInstanceProcAddr VulkanWrap::getInstanceProcAddr() const {
   return &getInstanceProcAddrOfWrap;

@@ -9,7 +9,8 @@
 
 namespace alpenglow::testing {
 
-/// One at a time: Vulkan's functions carry no user pointer, so they find it by a global.
+/// Vulkan's functions carry no user pointer, so they find it by a global: the newest one that lives
+/// hears of all calls.
 class VulkanWrap {
  public:
   explicit VulkanWrap(PFN_vkGetInstanceProcAddr real);
@@ -34,6 +35,9 @@ class VulkanWrap {
   bool failsNow(const char* name);
   PFN_vkGetInstanceProcAddr realGetInstanceProcAddr = nullptr;
   PFN_vkGetDeviceProcAddr realGetDeviceProcAddr = nullptr;
+
+ private:
+  VulkanWrap* previous_ = nullptr;
 };
 
 }  // namespace alpenglow::testing

@@ -1,0 +1,167 @@
+// Lives of objects: destroyed with frames in flight, uploaded instead of baked, counted.
+#include <cstring>
+
+#include "tests/sky/sky_fixture.h"
+
+namespace alpenglow::testing {
+namespace {
+
+SkyDraw someDraw() {
+  return makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0),
+                  {0.6, 0.0, 0.8}, {24, 16});
+}
+
+// Tables and view are destroyed right after they were recorded: the frame that uses them is
+// submitted all the same, and validation would say if they were gone.
+TEST_F(SkyTest, DestroyedInFlightLivesUntilTheFrameCompletes) {
+  Context* made = nullptr;
+  ASSERT_EQ(createContext(contextDesc(), &made), Status::Ok);
+  Tables* baked = nullptr;
+  ASSERT_EQ(createTables(made, preset("earth"), smallTables(), &baked), Status::Ok);
+  bakeAll(device(), baked);
+  View* view = nullptr;
+  ViewDesc viewDesc;
+  viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+  ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
+  TargetDesc targetDesc;
+  targetDesc.extent = {24, 16};
+  Target target(device(), targetDesc);
+  const FrameInfo frame = device().frame();
+  ResourceReport report;
+  const Picture drawn = target.draw([&](VkCommandBuffer commands) {
+    const Status status = recordSky(view, commands, frame, baked, someDraw());
+    destroyView(view, frame);
+    destroyTables(baked, frame);
+    collect(made, frame.completed);
+    resourceReport(made, &report);
+    return status == Status::Ok;
+  });
+  EXPECT_GT(report.bytes, 0u);
+  EXPECT_EQ(report.images, 4u);
+  EXPECT_EQ(device().frame().completed, frame.submitting);
+  EXPECT_EQ(drawn.data, picture(someDraw()).data);
+  collect(made, frame.submitting);
+  resourceReport(made, &report);
+  EXPECT_EQ(report.bytes, 0u);
+  EXPECT_EQ(report.images, 0u);
+  EXPECT_EQ(report.buffers, 0u);
+  destroyContext(made);
+  EXPECT_TRUE(diagnostics().empty()) << lastDiagnostic();
+}
+
+// In the middle of a bake, too; and what a host forgets is named.
+TEST_F(SkyTest, BakesCanBeCancelledAndLeaksAreNamed) {
+  Context* made = nullptr;
+  ASSERT_EQ(createContext(contextDesc(), &made), Status::Ok);
+  Tables* half = nullptr;
+  ASSERT_EQ(createTables(made, preset("earth"), smallTables(), &half), Status::Ok);
+  run([&](VkCommandBuffer commands) {
+    BakeProgress progress;
+    for (int i = 0; i < 4; ++i)
+      EXPECT_EQ(recordBake(half, commands, device().frame(), 500000, &progress), Status::Ok);
+    EXPECT_FALSE(progress.done);
+    destroyTables(half, device().frame());
+    return true;
+  });
+  collect(made, device().frame().completed);
+  ResourceReport report;
+  resourceReport(made, &report);
+  EXPECT_EQ(report.bytes, 0u);
+  destroyTables(nullptr, FrameInfo{});
+
+  Tables* forgotten = nullptr;
+  ASSERT_EQ(createTables(made, preset("earth"), smallTables(), &forgotten), Status::Ok);
+  EXPECT_TRUE(diagnostics().empty()) << lastDiagnostic();
+  // Destroyed with its frame not yet completed, the context goes first: it frees what waits.
+  destroyTables(forgotten, FrameInfo{1000, 0});
+  destroyContext(made);
+  EXPECT_TRUE(diagnostics().empty()) << lastDiagnostic();
+}
+
+TEST_F(SkyTest, UploadedTablesDrawTheSameBytes) {
+  Context* made = nullptr;
+  ContextDesc desc = contextDesc();
+  desc.capabilities = kCapabilitySky;
+  ASSERT_EQ(createContext(desc, &made), Status::Ok);
+  for (const MieStorage mie : {MieStorage::Full, MieStorage::Packed}) {
+    Tables* const baked = tables("earth", mie);
+    Tables* uploaded = nullptr;
+    ASSERT_EQ(createTables(made, preset("earth"), smallTables(mie), &uploaded), Status::Ok);
+    std::vector<TableId> ids = {TableId::OpticalDepth, TableId::Irradiance, TableId::Scattering};
+    if (mie == MieStorage::Full) ids.push_back(TableId::SingleMie);
+    for (const TableId id : ids) {
+      EXPECT_FALSE(tablesReady(uploaded));
+      TableInfo info;
+      ASSERT_EQ(tableInfo(baked, id, &info), Status::Ok);
+      const headless::HostBuffer bytes = device().createHostBuffer(
+          info.bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, nullptr);
+      run([&](VkCommandBuffer commands) {
+        return recordTableReadback(baked, commands, id, bytes.buffer(), 0) == Status::Ok;
+      });
+      run([&](VkCommandBuffer commands) {
+        return recordTableUpload(uploaded, commands, device().frame(), id, bytes.buffer(), 0) ==
+               Status::Ok;
+      });
+    }
+    EXPECT_TRUE(tablesReady(uploaded));
+    ViewDesc viewDesc;
+    viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+    viewDesc.mie = mie;
+    TargetDesc target;
+    target.extent = {24, 16};
+    const Picture fromBake = picture(makeView(viewDesc), baked, someDraw(), target);
+    View* view = nullptr;
+    ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
+    EXPECT_EQ(picture(view, uploaded, someDraw(), target).data, fromBake.data);
+    destroyView(view, FrameInfo{});
+    destroyTables(uploaded, FrameInfo{});
+  }
+  destroyContext(made);
+}
+
+TEST_F(SkyTest, ResourcesAreCounted) {
+  Context* made = nullptr;
+  ASSERT_EQ(createContext(contextDesc(), &made), Status::Ok);
+  ResourceReport report;
+  resourceReport(made, &report);
+  EXPECT_EQ(report.bytes + report.images + report.buffers + report.dispatches + report.draws, 0u);
+  Tables* baked = nullptr;
+  ASSERT_EQ(createTables(made, preset("earth"), smallTables(), &baked), Status::Ok);
+  resourceReport(made, &report);
+  const uint64_t whileBaking = report.bytes;
+  EXPECT_EQ(report.images, 9u);
+  EXPECT_EQ(report.buffers, 1u);
+  EXPECT_EQ(report.dispatches, 0u);
+  bakeAll(device(), baked);
+  collect(made, device().frame().completed);
+  resourceReport(made, &report);
+  EXPECT_EQ(report.dispatches, 7u);  // T, dE 1, dS 1, and dL, dJ, dE, dS of order 2.
+  EXPECT_EQ(report.images, 4u);
+  EXPECT_LT(report.bytes, whileBaking);
+  EXPECT_EQ(report.peakBytes, whileBaking);
+  const uint64_t variantsOfBake = report.shaderVariants;
+  EXPECT_EQ(report.pipelines, variantsOfBake);
+
+  ViewDesc viewDesc;
+  viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+  View* views[2] = {};
+  for (View*& view : views) ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
+  resourceReport(made, &report);
+  EXPECT_EQ(report.pipelines, variantsOfBake + 8);
+  EXPECT_EQ(report.shaderVariants, variantsOfBake + 4);
+  TargetDesc target;
+  target.extent = {24, 16};
+  picture(views[0], baked, someDraw(), target);
+  picture(views[1], baked, someDraw(), target);
+  resourceReport(made, &report);
+  EXPECT_EQ(report.draws, 2u);
+  for (View* view : views) destroyView(view, FrameInfo{});
+  destroyTables(baked, FrameInfo{});
+  resourceReport(made, &report);
+  EXPECT_EQ(report.bytes + report.images + report.buffers, 0u);
+  EXPECT_EQ(report.peakBytes, whileBaking);
+  destroyContext(made);
+}
+
+}  // namespace
+}  // namespace alpenglow::testing

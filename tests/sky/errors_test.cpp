@@ -1,0 +1,185 @@
+// What a view refuses, and that it is as it was afterwards.
+#include <cmath>
+#include <limits>
+
+#include "tests/sky/sky_fixture.h"
+
+namespace alpenglow::testing {
+namespace {
+
+SkyDraw goodDraw() {
+  double sun[3];
+  sunDirection(0.0, 0.0, radians(20.0), 0.3, sun);
+  return makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0), vec(sun),
+                  {16, 12});
+}
+
+struct BadDraw {
+  const char* expected;  ///< Parts of the sentence, separated by '|'.
+  std::function<void(SkyDraw&)> spoil;
+};
+
+bool hasAll(const std::string& text, const std::string& parts) {
+  size_t begin = 0;
+  while (begin <= parts.size()) {
+    const size_t end = std::min(parts.find('|', begin), parts.size());
+    if (text.find(parts.substr(begin, end - begin)) == std::string::npos) return false;
+    begin = end + 1;
+  }
+  return !text.empty() && text.back() == '.';
+}
+
+TEST_F(SkyTest, BadDrawsAreRefusedWithTheValue) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const BadDraw cases[] = {
+      {"Camera::position_m|(0, 0, 0)", [](SkyDraw& d) { d.camera.position_m[0] = 0.0; }},
+      {"Camera::position_m|nan", [](SkyDraw& d) { d.camera.position_m[1] = kNan; }},
+      {"Camera::position_m|inf", [](SkyDraw& d) { d.camera.position_m[2] = kInfinity; }},
+      {"Camera::position_m|1e+20", [](SkyDraw& d) { d.camera.position_m[2] = 1e20; }},
+      {"Camera::forward|unit", [](SkyDraw& d) { d.camera.forward[0] = 7.0; }},
+      {"Camera::forward|nan", [](SkyDraw& d) { d.camera.forward[2] = kNan; }},
+      {"Camera::up|unit", [](SkyDraw& d) { d.camera.up[0] = d.camera.up[2] = 0.0; }},
+      {"Camera::up|orthogonal", [](SkyDraw& d) { std::copy_n(d.camera.forward, 3, d.camera.up); }},
+      {"Camera::fov|is 0", [](SkyDraw& d) { d.camera.fov = 0.0; }},
+      {"Camera::fov|-1", [](SkyDraw& d) { d.camera.fov = -1.0; }},
+      {"Camera::fov|3.14159", [](SkyDraw& d) { d.camera.fov = kPi; }},
+      {"Camera::fov|nan", [](SkyDraw& d) { d.camera.fov = kNan; }},
+      {"Sun::direction|(0, 0, 0)",
+       [](SkyDraw& d) { d.sun.direction[0] = d.sun.direction[1] = d.sun.direction[2] = 0.0; }},
+      {"Sun::direction|nan", [](SkyDraw& d) { d.sun.direction[0] = kNan; }},
+      {"Sun::discRadius|-0.1", [](SkyDraw& d) { d.sun.discRadius = -0.1; }},
+      {"Sun::discRadius|2", [](SkyDraw& d) { d.sun.discRadius = 2.0; }},
+      {"Sun::irradiance|-3", [](SkyDraw& d) { d.sun.irradiance[1] = -3.0; }},
+      {"Sun::irradiance|nan", [](SkyDraw& d) { d.sun.irradiance[2] = kNan; }},
+      {"SkyDraw::radianceScale|-2", [](SkyDraw& d) { d.radianceScale = -2.0; }},
+      {"SkyDraw::radianceScale|inf", [](SkyDraw& d) { d.radianceScale = kInfinity; }},
+      {"SkyDraw::viewport|0 x 12", [](SkyDraw& d) { d.viewport.extent.width = 0; }},
+      {"SkyDraw::viewport|16 x 0", [](SkyDraw& d) { d.viewport.extent.height = 0; }},
+      {"SkyDraw::viewport|4000000000", [](SkyDraw& d) { d.viewport.extent.width = 4000000000u; }},
+      {"SkyDraw::viewport|(-1, 0)", [](SkyDraw& d) { d.viewport.offset.x = -1; }},
+      {"SkyDraw::viewport|2147483647", [](SkyDraw& d) { d.viewport.offset.y = 2147483647; }},
+  };
+  const Picture before = picture(goodDraw());
+  TargetDesc desc;
+  desc.extent = {16, 12};
+  Target target(device(), desc);
+  ResourceReport start, end;
+  resourceReport(context(), &start);
+  const Picture untouched = target.draw([&](VkCommandBuffer commands) {
+    for (const BadDraw& bad : cases) {
+      SkyDraw draw = goodDraw();
+      bad.spoil(draw);
+      message().clear();
+      EXPECT_EQ(recordSky(view(), commands, device().frame(), tables(), draw),
+                Status::InvalidArgument)
+          << bad.expected;
+      EXPECT_TRUE(hasAll(message(), bad.expected)) << bad.expected << ": " << message();
+    }
+    return true;
+  });
+  for (const float value : untouched.data) ASSERT_EQ(value, kClear);
+  resourceReport(context(), &end);
+  EXPECT_EQ(end.draws, start.draws);
+  EXPECT_EQ(picture(goodDraw()).data, before.data);
+}
+
+TEST_F(SkyTest, FisheyesMayGoAllRound) {
+  SkyDraw draw = goodDraw();
+  draw.camera.fov = 2.0 * kPi;
+  EXPECT_EQ(badValue(picture(draw, Projection::Fisheye)), "");
+  TargetDesc desc;
+  desc.extent = {16, 12};
+  Target target(device(), desc);
+  draw.camera.fov = 6.3;
+  target.draw([&](VkCommandBuffer commands) {
+    EXPECT_EQ(recordSky(view(Projection::Fisheye), commands, device().frame(), tables(), draw),
+              Status::InvalidArgument);
+    EXPECT_TRUE(hasAll(message(), "Camera::fov|6.3|2 pi")) << message();
+    return true;
+  });
+}
+
+TEST_F(SkyTest, TablesMustFitTheView) {
+  Tables* unbaked = nullptr;
+  ASSERT_EQ(createTables(context(), preset("earth"), smallTables(), &unbaked), Status::Ok);
+  Tables* const packed = tables("earth", MieStorage::Packed);
+  ContextDesc otherDesc = contextDesc();
+  Context* other = nullptr;
+  ASSERT_EQ(createContext(otherDesc, &other), Status::Ok);
+  View* foreign = nullptr;
+  ViewDesc viewDesc;
+  viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+  ASSERT_EQ(createView(other, viewDesc, &foreign), Status::Ok);
+  tables();
+  TargetDesc desc;
+  desc.extent = {16, 12};
+  Target target(device(), desc);
+  target.draw([&](VkCommandBuffer commands) {
+    const FrameInfo frame = device().frame();
+    EXPECT_EQ(recordSky(view(), commands, frame, unbaked, goodDraw()), Status::NotReady);
+    EXPECT_TRUE(hasAll(message(), "not ready|0 of ")) << message();
+    EXPECT_EQ(recordSky(view(), commands, frame, packed, goodDraw()), Status::InvalidArgument);
+    EXPECT_TRUE(hasAll(message(), "packed|ViewDesc::mie says in full")) << message();
+    EXPECT_EQ(recordSky(foreign, commands, frame, tables(), goodDraw()), Status::InvalidArgument);
+    EXPECT_TRUE(hasAll(lastDiagnostic(), "another context")) << lastDiagnostic();
+    EXPECT_EQ(recordSky(nullptr, commands, frame, tables(), goodDraw()), Status::InvalidArgument);
+    EXPECT_EQ(recordSky(view(), commands, frame, nullptr, goodDraw()), Status::InvalidArgument);
+    EXPECT_EQ(recordSky(view(), VK_NULL_HANDLE, frame, tables(), goodDraw()),
+              Status::InvalidArgument);
+    return true;
+  });
+  destroyView(foreign, FrameInfo{});
+  destroyContext(other);
+  destroyTables(unbaked, FrameInfo{});
+}
+
+TEST_F(SkyTest, BadViewsAreRefusedWithTheValue) {
+  struct BadView {
+    Status status;
+    const char* expected;
+    std::function<void(ViewDesc&)> spoil;
+  };
+  const BadView cases[] = {
+      {Status::Unsupported, "colorFormat|VkFormat 0",
+       [](ViewDesc& d) { d.colorFormat = VK_FORMAT_UNDEFINED; }},
+      {Status::Unsupported, "colorFormat|VkFormat 131",
+       [](ViewDesc& d) { d.colorFormat = VK_FORMAT_BC1_RGB_UNORM_BLOCK; }},
+      {Status::Unsupported, "depthFormat|VkFormat 37",
+       [](ViewDesc& d) { d.depthFormat = VK_FORMAT_R8G8B8A8_UNORM; }},
+      {Status::Unsupported, "viewMask|0x3", [](ViewDesc& d) { d.viewMask = 3; }},
+      {Status::Unsupported, "samples is 0",
+       [](ViewDesc& d) { d.samples = VkSampleCountFlagBits(0); }},
+      {Status::Unsupported, "samples is 64",
+       [](ViewDesc& d) { d.samples = VK_SAMPLE_COUNT_64_BIT; }},
+      {Status::InvalidArgument, "projection 9", [](ViewDesc& d) { d.projection = Projection(9); }},
+      {Status::InvalidArgument, "depth 5", [](ViewDesc& d) { d.depth = DepthConvention(5); }},
+      {Status::InvalidArgument, "mie 2", [](ViewDesc& d) { d.mie = MieStorage(2); }},
+      {Status::InvalidArgument, "groundAlbedo|no sampler",
+       [](ViewDesc& d) {
+         d.groundAlbedo.view = reinterpret_cast<VkImageView>(uintptr_t{1});
+         d.groundAlbedo.height = 4;
+       }},
+  };
+  ResourceReport start, end;
+  resourceReport(context(), &start);
+  for (const BadView& bad : cases) {
+    ViewDesc desc;
+    desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+    bad.spoil(desc);
+    message().clear();
+    View* made = reinterpret_cast<View*>(uintptr_t{1});
+    EXPECT_EQ(createView(context(), desc, &made), bad.status) << bad.expected;
+    EXPECT_EQ(made, nullptr);
+    EXPECT_TRUE(hasAll(message(), bad.expected)) << bad.expected << ": " << message();
+  }
+  resourceReport(context(), &end);
+  EXPECT_EQ(end.pipelines, start.pipelines);
+  View* made = nullptr;
+  EXPECT_EQ(createView(nullptr, ViewDesc{}, &made), Status::InvalidArgument);
+  EXPECT_EQ(createView(context(), ViewDesc{}, nullptr), Status::InvalidArgument);
+  destroyView(nullptr, FrameInfo{});
+}
+
+}  // namespace
+}  // namespace alpenglow::testing
