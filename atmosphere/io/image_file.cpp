@@ -6,7 +6,9 @@
 #include <cmath>
 #include <exception>
 
+#include "atmosphere/io/exr_header.h"
 #include "atmosphere/io/oiio.h"
+#include "atmosphere/io/png_chunks.h"
 #include "atmosphere/model/physics_cpp.h"
 
 namespace alpenglow::io {
@@ -120,12 +122,22 @@ std::vector<uint8_t> encoded(const std::vector<float>& linear) {
   return bytes;
 }
 
+// What can be told before the image library allocates, or prints complaints of its own.
+std::string damageOf(const std::string& format, const std::string& bytes) {
+  constexpr uint64_t kMaxTexels = uint64_t{kMaxAlbedoWidth} * kMaxAlbedoHeight;
+  if (format == "png") return checkPngChunks(bytes);
+  if (format == "openexr") return checkExrHeaders(bytes, kMaxTexels, 64);
+  return {};
+}
+
 Result<AlbedoMap> decodeAlbedo(const std::string& path, const std::string& bytes) {
   using Map = Result<AlbedoMap>;
   const char* format = formatOf(bytes);
   if (format == nullptr) {
     return Map::failure("The albedo map '" + path + "' is no JPEG, PNG, TIFF or EXR image.");
   }
+  const std::string damage = damageOf(format, bytes);
+  if (!damage.empty()) return Map::failure("The albedo map '" + path + "' " + damage + ".");
   MemoryInput memory(bytes, format);
   const auto unreadable = [&](const std::string& reason) {
     return Map::failure("Cannot read the albedo map '" + path + "': " + oneLine(reason) + ".");
@@ -178,6 +190,11 @@ Result<LinearImage> readExr(const std::string& path) try {
   using Image = Result<LinearImage>;
   const Result<std::string> bytes = readFile(path, kMaxImageBytes);
   if (!bytes) return Image::failure(bytes.error);
+  if (bytes->compare(0, 4, "\x76\x2F\x31\x01") != 0) {
+    return Image::failure("The picture '" + path + "' is no EXR image.");
+  }
+  const std::string damage = checkExrHeaders(*bytes, uint64_t{1} << 28, 64);
+  if (!damage.empty()) return Image::failure("The picture '" + path + "' " + damage + ".");
   MemoryInput memory(*bytes, "openexr");
   const auto unreadable = [&](const std::string& reason) {
     return Image::failure("Cannot read the picture '" + path + "': " + oneLine(reason) + ".");

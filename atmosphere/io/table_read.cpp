@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "atmosphere/io/atmosphere_json.h"
+#include "atmosphere/io/exr_header.h"
 #include "atmosphere/io/oiio.h"
 #include "atmosphere/io/table_format.h"
 
@@ -126,6 +127,8 @@ Result<TableFile> readTableBytes(const std::string& path, std::string* bytes, bo
   if (bytes->substr(*digits, kChecksumDigits) != checksum(bytes, *digits)) {
     return refuse(path, "is truncated or altered: its checksum is wrong");
   }
+  const std::string problem = checkExrHeaders(*bytes, kMaxTableTexels, 4);
+  if (!problem.empty()) return refuse(path, problem);
   return decode(path, *bytes, orders);
 } catch (const std::exception& problem) {
   return refuse(path, "can't be read: " + oneLine(problem.what()));

@@ -94,7 +94,13 @@ std::string usageSentence(std::string text) {
 
 void checkCommand(const CLI::App& app, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
-  if (argc > 1 && first.rfind("-", 0) == 0) return;
+  const bool asksForHelp = first == "-h" || first == "--help" || first == "--version";
+  if (asksForHelp) return;
+  if (first.rfind("-", 0) == 0) {
+    throw Failure(
+        "The option '" + first + "' is unknown before a command; --help lists what " + "there is.",
+        Failure::kUsage);
+  }
   std::string list;
   for (const CLI::App* command : app.get_subcommands(nullptr)) {
     if (command->get_name() == first) return;
@@ -110,7 +116,7 @@ int parseAndRun(int argc, char** argv) {
   app.set_version_flag("--version", "alpenglow " ALPENGLOW_VERSION_STRING,
                        "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   Arguments arguments;
   addPresets(&app, &arguments);
   addBake(&app, &arguments);

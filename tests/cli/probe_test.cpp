@@ -1,0 +1,150 @@
+#include <cmath>
+
+#include "../io/schema.h"
+#include "program.h"
+
+namespace alpenglow::test {
+namespace {
+
+const char* const kQueries = R"({"queries": [
+  {"id": "horizon", "altitude_m": 2, "view_zenith_deg": 88, "sun_zenith_deg": 70, "azimuth_deg": 45, "distance_m": null},
+  {"id": "surface", "kind": "irradiance", "altitude_m": 0, "sun_zenith_deg": 60},
+  {"id": "down", "altitude_m": 10000, "view_zenith_deg": 180, "sun_zenith_deg": 30, "azimuth_deg": 0, "distance_m": null},
+  {"id": "nothing", "altitude_m": 100, "view_zenith_deg": 45, "sun_zenith_deg": 30, "azimuth_deg": 0, "distance_m": 0},
+  {"id": "missed", "altitude_m": 1e6, "view_zenith_deg": 10, "sun_zenith_deg": 30, "azimuth_deg": 0, "distance_m": null}]})";
+
+class Probe : public Program {
+ protected:
+  Probe() : queries_(folder_.write("q.json", kQueries)) {}
+
+  std::vector<std::string> probeOf(const std::vector<std::string>& more) {
+    return joined({"probe", "earth", "--queries", queries_, "-o", folder_ / "a.json"}, more);
+  }
+  nlohmann::json answers() { return jsonOf("a.json")["answers"]; }
+
+  std::string queries_;
+};
+
+void expectZeros(const nlohmann::json& values) {
+  EXPECT_EQ(values, nlohmann::json({0.0, 0.0, 0.0}));
+}
+
+void expectContract(const nlohmann::json& list) {
+  ASSERT_EQ(list.size(), 5u);
+  const char* const ids[] = {"horizon", "surface", "down", "nothing", "missed"};
+  for (size_t i = 0; i < 5; ++i) EXPECT_EQ(list[i]["id"], ids[i]);
+  EXPECT_EQ(list[0]["hits_ground"], false);
+  EXPECT_EQ(list[2]["hits_ground"], true);
+  EXPECT_GT(list[0]["sky_radiance"][2], 0.0);
+  expectZeros(list[0]["ground_radiance"]);
+  EXPECT_GT(list[2]["ground_radiance"][0], 0.0);
+  EXPECT_GT(list[1]["direct"][0], 0.3);
+  EXPECT_LT(list[1]["direct"][0], 0.5);  // T cos 60 degrees.
+  for (size_t i : {size_t{3}, size_t{4}}) {
+    EXPECT_EQ(list[i]["hits_ground"], false);
+    EXPECT_EQ(list[i]["transmittance"], nlohmann::json({1.0, 1.0, 1.0}));
+    expectZeros(list[i]["sky_radiance"]);
+    expectZeros(list[i]["ground_radiance"]);
+  }
+}
+
+TEST_F(Probe, AnswersOnTheDevice) {
+  expectGood(probeOf(smallTables()));
+  EXPECT_EQ(schemaError(ALPENGLOW_SCHEMA_FOLDER, "answers.schema.json", jsonOf("a.json")), "");
+  expectContract(answers());
+  EXPECT_GT(answers()[1]["sky"][2], 0.0);
+}
+
+TEST_F(Probe, TheReferenceAnswersOrderOne) {
+  expectGood(probeOf({"--method", "reference", "--orders", "1", "--report", folder_ / "r.json"}));
+  EXPECT_EQ(schemaError(ALPENGLOW_SCHEMA_FOLDER, "answers.schema.json", jsonOf("a.json")), "");
+  EXPECT_EQ(schemaError(ALPENGLOW_SCHEMA_FOLDER, "report.schema.json", jsonOf("r.json")), "");
+  EXPECT_TRUE(jsonOf("r.json")["device"].is_null());
+  expectContract(answers());
+  expectZeros(answers()[1]["sky"]);
+  for (const nlohmann::json& answer : answers()) EXPECT_TRUE(answer.contains("standard_error"));
+}
+
+// The tables' own accuracy is tested elsewhere: 50 trapezoids of a ray and few texels are off by
+// tens of per cent. That queries, units and channels are passed on rightly shows all the same.
+TEST_F(Probe, BothMethodsAgree) {
+  expectGood(probeOf({"--method", "reference", "--orders", "1"}));
+  const nlohmann::json exact = answers();
+  expectGood(probeOf({"--orders", "1", "--size-scattering", "32x64x32x8", "--format", "float"}));
+  const nlohmann::json baked = answers();
+  for (size_t i = 0; i < 5; ++i) {
+    for (const char* field : {"transmittance", "sky_radiance", "ground_radiance", "direct"}) {
+      if (!exact[i].contains(field)) continue;
+      for (size_t c = 0; c < 3; ++c) {
+        const double truth = exact[i][field][c];
+        EXPECT_NEAR(baked[i][field][c].get<double>(), truth, 0.25 * truth + 1e-5)
+            << exact[i]["id"] << " " << field;
+      }
+    }
+  }
+}
+
+TEST_F(Probe, ATableFileGivesTheSameAnswers) {
+  expectGood(probeOf(smallTables()));
+  const std::string direct = contentsOf(folder_ / "a.json");
+  expectGood(joined({"bake", "earth", "-o", folder_ / "t.exr"}, smallTables()));
+  expectGood(probeOf({"--tables", folder_ / "t.exr"}));
+  EXPECT_EQ(contentsOf(folder_ / "a.json"), direct);
+}
+
+TEST_F(Probe, TablesOfAnotherKindAreRefused) {
+  expectGood(joined({"bake", "earth", "-o", folder_ / "t.exr"}, smallTables()));
+  const std::string tables = folder_ / "t.exr";
+  expectGood(probeOf({"--tables", tables, "--orders", "2", "--format", "half"}));
+  std::filesystem::remove(folder_ / "a.json");
+  expectRefused(probeOf({"--tables", tables, "--orders", "3"}), {"--orders 3", "t.exr", "2"});
+  expectRefused(probeOf({"--tables", tables, "--format", "float"}), {"--format float", "half"});
+  expectRefused(probeOf({"--tables", tables, "--mie", "packed"}), {"--mie packed", "full"});
+  expectRefused(probeOf({"--tables", tables, "--size-scattering", "4x8x8x4"}), {"4x8x8x2"});
+  expectRefused(
+      {"probe", "mars", "--queries", queries_, "-o", folder_ / "a.json", "--tables", tables},
+      {"t.exr", "another atmosphere", "bottom_radius_m"});
+  std::string bytes = contentsOf(tables);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] + 1);
+  folder_.write("bad.exr", bytes);
+  expectRefused(probeOf({"--tables", folder_ / "bad.exr"}), {"bad.exr", "altered"});
+  expectRefused(probeOf({"--tables", folder_ / "absent.exr"}), {"absent.exr"});
+}
+
+TEST_F(Probe, TheReferenceRefusesWhatItHasNot) {
+  expectRefused(probeOf({"--method", "reference"}), {"all orders", "--orders 1"});
+  expectRefused(probeOf({"--method", "reference", "--orders", "2"}), {"2 orders", "--orders 1"});
+  expectRefused(probeOf({"--method", "reference", "--orders", "1", "--tables", "t.exr"}),
+                {"--tables"});
+  expectRefused(probeOf({"--method", "reference", "--orders", "1", "--format", "half"}),
+                {"--format"});
+}
+
+TEST_F(Probe, BadQueriesFailTheFile) {
+  const auto refused = [&](const std::string& query, const std::vector<std::string>& words) {
+    const std::string file = folder_.write("bad.json", "{\"queries\": [" + query + "]}");
+    expectRefused({"probe", "earth", "--queries", file, "-o", folder_ / "a.json"}, words);
+  };
+  refused(R"({"id": "x", "altitude_m": -1, "view_zenith_deg": 8, "sun_zenith_deg": 9,
+              "azimuth_deg": 4, "distance_m": null})",
+          {"'x'", "altitude_m", "-1"});
+  refused(R"({"id": "x", "altitude_m": NaN, "view_zenith_deg": 8, "sun_zenith_deg": 9,
+              "azimuth_deg": 4, "distance_m": null})",
+          {"'x'", "altitude_m", "NaN"});
+  refused(R"({"id": "x", "kind": "flux", "altitude_m": 1, "sun_zenith_deg": 9})",
+          {"'x'", "kind", "flux"});
+  refused(R"({"kind": "irradiance", "altitude_m": 1, "sun_zenith_deg": 9})", {"id", "missing"});
+  expectRefused({"probe", "earth", "--queries", folder_ / "none.json", "-o", folder_ / "a.json"},
+                {"none.json"});
+}
+
+TEST_F(Probe, AnAnswerFileMayBeADevice) {
+  expectGood({"probe", "earth", "--queries", queries_, "-o", "/dev/null", "--method", "reference",
+              "--orders", "1"});
+  expectRefused({"probe", "earth", "--queries", queries_, "-o", "/dev/full", "--method",
+                 "reference", "--orders", "1"},
+                {"/dev/full"});
+}
+
+}  // namespace
+}  // namespace alpenglow::test

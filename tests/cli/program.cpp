@@ -1,0 +1,84 @@
+#include "program.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace alpenglow::test {
+namespace {
+
+[[noreturn]] void becomeProgram(const std::vector<std::string>& arguments,
+                                const std::vector<std::string>& environment, const std::string& out,
+                                const std::string& err) {
+  const int flags = O_WRONLY | O_CREAT | O_TRUNC;
+  ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+  ::dup2(::open(out.c_str(), flags, 0600), STDOUT_FILENO);
+  ::dup2(::open(err.c_str(), flags, 0600), STDERR_FILENO);
+  std::vector<std::string> variables = environment;
+  for (std::string& variable : variables) ::putenv(variable.data());
+  std::vector<std::string> words = arguments;
+  words.insert(words.begin(), ALPENGLOW_PROGRAM);
+  std::vector<char*> pointers;
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  ::execv(ALPENGLOW_PROGRAM, pointers.data());
+  ::_exit(127);
+}
+
+std::string shown(const std::vector<std::string>& arguments) {
+  std::string text = "alpenglow";
+  for (const std::string& argument : arguments) text += ' ' + argument;
+  return text;
+}
+
+}  // namespace
+
+Outcome runProgram(const std::vector<std::string>& arguments,
+                   const std::vector<std::string>& environment) {
+  const TemporaryFolder folder;
+  const pid_t child = ::fork();
+  if (child == 0) becomeProgram(arguments, environment, folder / "out", folder / "err");
+  int status = 0;
+  EXPECT_EQ(::waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status)) << shown(arguments);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentsOf(folder / "out"),
+          contentsOf(folder / "err")};
+}
+
+const std::vector<std::string>& smallTables() {
+  static const std::vector<std::string> kOptions = {
+      "--orders",          "2",    "--size-scattering",    "4x8x8x2",
+      "--size-irradiance", "16x4", "--size-transmittance", "64x16"};
+  return kOptions;
+}
+
+std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+void Program::expectRefused(const std::vector<std::string>& arguments,
+                            const std::vector<std::string>& words,
+                            const std::vector<std::string>& environment) {
+  std::vector<std::string> before = folder_.names();
+  const Outcome outcome = runProgram(arguments, environment);
+  std::vector<std::string> after = folder_.names();
+  std::sort(before.begin(), before.end());
+  std::sort(after.begin(), after.end());
+  EXPECT_EQ(before, after) << shown(arguments);
+  EXPECT_GT(outcome.status, 0) << shown(arguments);
+  EXPECT_LE(outcome.status, 2) << shown(arguments);
+  EXPECT_EQ(outcome.out, "") << shown(arguments);
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  if (!outcome.err.empty()) {
+    expectSentence(outcome.err.substr(0, outcome.err.size() - 1));
+  }
+  for (const std::string& word : words) {
+    EXPECT_NE(outcome.err.find(word), std::string::npos)
+        << shown(arguments) << " said: " << outcome.err;
+  }
+}
+
+}  // namespace alpenglow::test

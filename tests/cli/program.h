@@ -1,0 +1,50 @@
+// Runs the built program and looks at what it did.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "../io/temporary_folder.h"
+
+namespace alpenglow::test {
+
+struct Outcome {
+  int status = -1;  ///< Exit status; -1 when it was killed by a signal.
+  std::string out;
+  std::string err;
+};
+
+/// Environment variables are set for the program only, as "NAME=value".
+Outcome runProgram(const std::vector<std::string>& arguments,
+                   const std::vector<std::string>& environment = {});
+
+/// Options that make bakes take a fraction of a second.
+const std::vector<std::string>& smallTables();
+std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b);
+
+/// A folder and the program, for a test.
+class Program : public testing::Test {
+ protected:
+  void expectGood(const std::vector<std::string>& arguments) {
+    const Outcome outcome = runProgram(arguments);
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(outcome.err, "");
+  }
+
+  /// The program must fail with one sentence that has all of these words, print nothing else, and
+  /// leave the folder as it was.
+  void expectRefused(const std::vector<std::string>& arguments,
+                     const std::vector<std::string>& words,
+                     const std::vector<std::string>& environment = {});
+
+  nlohmann::json jsonOf(const std::string& name) {
+    return nlohmann::json::parse(contentsOf(folder_ / name), nullptr, false);
+  }
+
+  TemporaryFolder folder_;
+};
+
+}  // namespace alpenglow::test
