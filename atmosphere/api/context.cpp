@@ -72,6 +72,15 @@ Status createContext(const ContextDesc& desc, Context** out) {
 
 void destroyContext(Context* context) {
   if (context == nullptr) return;
+  if (context->bake != nullptr) {
+    const uint32_t tables = context->bake->liveTables, views = context->bake->liveViews;
+    if (tables != 0 || views != 0) {
+      context->device->notice(Severity::Warning,
+                              "The context is destroyed before %u Tables and %u View objects of "
+                              "it, but must be the last: what they hold is lost.",
+                              tables, views);
+    }
+  }
   sky::ProbePass::destroy(context->probe);
   bake::Resources::destroy(context->bake);
   engine::Device::destroy(context->device);

@@ -1,6 +1,7 @@
 // What all tables of a context share: layouts, the sampler, and the pipelines of the passes.
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <mutex>
 #include <tuple>
@@ -39,6 +40,9 @@ class Resources {
   /// The pipeline of a pass for tables of a format; made at the first call and kept.
   Status pipeline(PassKind kind, TableFormat format, bool firstOrder, MieStorage mie,
                   VkPipeline* out);
+
+  /// Objects of the host that are alive on this context.
+  std::atomic<uint32_t> liveTables{0}, liveViews{0};
 
  private:
   explicit Resources(engine::Device& device) : device_(device) {}

@@ -124,6 +124,7 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
   if (tables == nullptr) {
     return device.fail(Status::OutOfHostMemory, VK_SUCCESS, "Tables found no host memory.");
   }
+  ++resources.liveTables;
   tables->passes_ = bake::standardPasses(desc.sizes, desc.orders);
   for (const bake::Pass& pass : tables->passes_)
     tables->unitsTotal_ += pass.unitsPerRow * pass.rows;
@@ -143,6 +144,7 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
 
 void Tables::destroy(Tables* tables, const FrameInfo& frame) {
   if (tables == nullptr) return;
+  --tables->resources_.liveTables;
   engine::Device& device = tables->device_;
   device.deletions().defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
                            engine::handleNumber(tables->pool_));

@@ -73,6 +73,7 @@ Status View::create(bake::Resources& resources, const ViewDesc& desc, View** out
   if (view == nullptr) {
     return device.fail(Status::OutOfHostMemory, VK_SUCCESS, "A view found no host memory.");
   }
+  ++resources.liveViews;
   Status status = view->makeLayout();
   if (status == Status::Ok) status = view->makePipelines();
   if (status != Status::Ok) {
@@ -85,6 +86,7 @@ Status View::create(bake::Resources& resources, const ViewDesc& desc, View** out
 
 void View::destroy(View* view, const FrameInfo& frame) {
   if (view == nullptr) return;
+  --view->resources_.liveViews;
   engine::DeletionQueue& deletions = view->device_.deletions();
   for (VkPipeline pipeline : view->pipelines_)
     deletions.defer(frame.submitting, VK_OBJECT_TYPE_PIPELINE, engine::handleNumber(pipeline));

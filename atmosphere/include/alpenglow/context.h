@@ -54,7 +54,8 @@ struct ContextDesc {
 Status createContext(const ContextDesc& desc, Context** out);
 
 /// Destroys the context and what still waits for a frame. The host guarantees that the GPU is done
-/// with it. Objects left alive are reported by name through the diagnostic callback.
+/// with it. Tables and views left alive are reported through the diagnostic callback, how many of
+/// each, and are lost: they must not be destroyed afterwards.
 void destroyContext(Context* context);
 
 /// Destroys what frames up to `completed` used and destroyed objects left behind.
