@@ -6,7 +6,7 @@
 #include "tests/bake/bake_fixture.h"
 
 namespace alpenglow::solver_f64 {
-using namespace physics_f64;  // NOLINT: as the text has it
+using namespace physics_f64;             // NOLINT: as the text has it
 using Spectrum = physics_f64::Spectrum;  // not the public one
 
 /// Tables in double that the text below reads; set by the test before it calls the solver.

@@ -1,11 +1,11 @@
 // Table files: the baked tables as a multi-part EXR that any EXR tool opens, with the parameters,
 // the version and a checksum of the whole file inside.
 //
-// Parts: "optical_depth", "irradiance", "scattering", and "single_mie" unless it is packed; with the
-// orders kept also "scattering_order_N", "irradiance_order_N" and "single_mie_order_1". All are RGBA,
-// half or float as baked; the optical depth is float wherever the device allows. A 3D table is a 2D
-// image: its slices of r stand below each other, so a part's bytes are those of the table's tightly
-// packed copy.
+// Parts: "optical_depth", "irradiance", "scattering", and "single_mie" unless it is packed; with
+// the orders kept also "scattering_order_N", "irradiance_order_N" and "single_mie_order_1". All are
+// RGBA, half or float as baked; the optical depth is float wherever the device allows. A 3D table
+// is a 2D image: its slices of r stand below each other, so a part's bytes are those of the table's
+// tightly packed copy.
 #pragma once
 
 #include <alpenglow/io/result.h>

@@ -18,8 +18,8 @@ using RequirementsFn = std::function<Status(PFN_vkGetInstanceProcAddr, VkInstanc
                                             Requirements* out, std::string* missing)>;
 
 struct DeviceOptions {
-  std::string select;      ///< Empty: the first suitable; digits: the index; else part of its name.
-  bool validation = false; ///< VK_LAYER_KHRONOS_validation with synchronisation checks.
+  std::string select;  ///< Empty: the first suitable; digits: the index; else part of its name.
+  bool validation = false;      ///< VK_LAYER_KHRONOS_validation with synchronisation checks.
   RequirementsFn requirements;  ///< Null: Vulkan 1.3 with synchronization2 and dynamicRendering.
   /// Called with each validation message too, from whichever thread causes it, until the device's
   /// destructor has returned: how objects that outlive the device are heard of. May be null.
@@ -35,7 +35,8 @@ struct Timing {
 
 class Device;
 
-/// A buffer in host-visible, coherent memory, mapped for its whole life. Unmapped by its destructor.
+/// A buffer in host-visible, coherent memory, mapped for its whole life. Unmapped by its
+/// destructor.
 class HostBuffer {
  public:
   HostBuffer() = default;
