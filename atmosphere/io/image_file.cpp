@@ -126,6 +126,11 @@ std::vector<uint8_t> encoded(const std::vector<float>& linear) {
 std::string damageOf(const std::string& format, const std::string& bytes) {
   constexpr uint64_t kMaxTexels = uint64_t{kMaxAlbedoWidth} * kMaxAlbedoHeight;
   if (format == "png") return checkPngChunks(bytes);
+  if (format == "jpeg") {  // libjpeg fills what is missing with grey; its end marker tells.
+    const size_t tail = std::min<size_t>(bytes.size(), 4096);
+    const bool whole = bytes.find("\xFF\xD9", bytes.size() - tail) != std::string::npos;
+    return whole ? "" : "is a truncated JPEG image";
+  }
   if (format == "openexr") return checkExrHeaders(bytes, kMaxTexels, 64);
   return {};
 }

@@ -96,7 +96,9 @@ TablesPointer uploadTables(Session* session, const Parameters& parameters, io::T
                                                  {TableId::Irradiance, "irradiance"},
                                                  {TableId::Scattering, "scattering"},
                                                  {TableId::SingleMie, "single_mie"}};
-  for (const auto& [id, name] : ids) {
+  for (const auto& entry : ids) {
+    const TableId id = entry.first;
+    const std::string name = entry.second;
     const auto part = std::find_if(file.parts.begin(), file.parts.end(),
                                    [&](const io::TablePart& p) { return p.name == name; });
     if (part == file.parts.end()) continue;  // Packed; the reader has checked all others.
@@ -106,9 +108,8 @@ TablesPointer uploadTables(Session* session, const Parameters& parameters, io::T
     const headless::HostBuffer buffer =
         session->hostBuffer(part->texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     std::memcpy(buffer.data(), part->texels.data(), part->texels.size());
-    const TableId table = id;
     session->run([&](VkCommandBuffer commands) {
-      session->check(recordTableUpload(tables.get(), commands, session->device().frame(), table,
+      session->check(recordTableUpload(tables.get(), commands, session->device().frame(), id,
                                        buffer.buffer(), 0));
       return "upload";
     });

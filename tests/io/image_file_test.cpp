@@ -127,6 +127,10 @@ TEST(AlbedoMap, RefusesWhatIsNoPicture) {
     expectSentence(readAlbedoMap(folder.write("cut", exr.substr(0, length))).error);
   }
   expectSentence(readAlbedoMap(folder.write("cut", png.substr(0, png.size() / 2))).error);
+  const std::string jpeg = contentsOf(ALPENGLOW_EARTH_MAP);
+  for (const size_t length : {size_t{100}, jpeg.size() / 2, jpeg.size() - 2}) {
+    expectSentence(readAlbedoMap(folder.write("cut", jpeg.substr(0, length))).error);
+  }
   expectSentence(readAlbedoMap(folder.write("cut", exr.substr(0, exr.size() / 2))).error);
 }
 
