@@ -23,7 +23,7 @@ using io::LinearImage;
 // Both layers' checks, whatever the program itself turns on; messages come on its standard output.
 const std::vector<std::string>& validated() {
   static const std::vector<std::string> kEnvironment = {
-      "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation",
+      "VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation", "VK_LAYER_REPORT_FLAGS=error,warn",
       "VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT"};
   return kEnvironment;
 }
@@ -190,6 +190,17 @@ TEST_P(Scene, ShowsWhatItShouldAndStaysAsItWas) {
   const auto check = checks().find(GetParam());
   if (check != checks().end()) check->second(image);
   expectAsKept(image, GetParam());
+}
+
+// Proves that the net holds: with advice turned on, the layer has something to say.
+TEST_F(SceneTest, WhatValidationSaysIsHeard) {
+  std::vector<std::string> environment = validated();
+  environment.emplace_back("VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT");
+  environment.emplace_back("VK_LAYER_REPORT_FLAGS=error,warn,perf");
+  const Outcome outcome = runProgram(
+      joined({"bake", "earth", "-o", folder_ / "earth.exr"}, smallTables()), environment);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("BestPractices"), std::string::npos) << outcome.out;
 }
 
 TEST_F(Fisheyes, DarkenAsTheSunSinks) {
