@@ -20,8 +20,8 @@ struct Band {
   double low, high;  ///< Sun elevation, degrees, half-open.
   double boundP95;   ///< Of single scattering.
 };
-constexpr Band kBands[] = {{"day", 10.0, 90.0, 0.085},
-                           {"low", 0.0, 10.0, 0.16},
+constexpr Band kBands[] = {{"day", 10.0, 90.0, 0.065},
+                           {"low", 0.0, 10.0, 0.09},
                            {"civil", -6.0, 0.0, 0.45},
                            {"nautical", -12.0, -6.0, 8.2}};
 

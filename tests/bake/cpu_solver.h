@@ -108,14 +108,16 @@ inline TableShape shapeOf(const TableSizes& s) {
 struct Texel {
   Real h, mu, muS, nu;
   bool hitsGround;
+  Real reach;
 };
 inline Texel texelOf(const Medium& m, const TableShape& shape, uint32_t x, uint32_t y, uint32_t z) {
   Texel t;
   const auto sizeMuS = static_cast<uint32_t>(shape.scatteringMuS);
   t.h = scatteringH(m, unitFromTexel(z, shape.scatteringR));
   t.hitsGround = y < shape.scatteringMu / 2;
-  t.mu = scatteringMu(m, t.h, scatteringUnitMuFromTexel(y, t.hitsGround, shape.scatteringMu),
-                      t.hitsGround);
+  const Real uMu = scatteringUnitMuFromTexel(y, t.hitsGround, shape.scatteringMu);
+  t.mu = scatteringMu(m, t.h, uMu, t.hitsGround);
+  t.reach = scatteringReach(m, t.h, uMu, t.hitsGround);
   t.muS = scatteringMuS(unitFromTexel(x % sizeMuS, shape.scatteringMuS));
   t.nu = clampNu(t.mu, t.muS, 2.0 * unitFromTexel(x / sizeMuS, shape.scatteringNu) - 1.0);
   return t;

@@ -77,6 +77,9 @@ class SolverTest : public BakeTest {
     forScattering([&](uint32_t x, uint32_t y, uint32_t z, const cpu::Texel& t) {
       cpu::Spectrum r, m;
       singleScattering(medium_, shape_, t.h, t.mu, t.muS, t.nu, t.hitsGround, r, m);
+      const cpu::Spectrum shorter = shorterRay(medium_, shape_, t.h, t.mu, t.hitsGround, t.reach);
+      r *= shorter;
+      m *= shorter;
       errorsR.add(r, rayleigh.texel(x, y, z), floorR);
       errorsM.add(m, mie.texel(x, y, z), floorM);
     });
@@ -121,7 +124,8 @@ class SolverTest : public BakeTest {
     Errors errorsS, errorsE;
     const double floorS = 1e-5 * largestValue(scattering);
     forScattering([&](uint32_t x, uint32_t y, uint32_t z, const cpu::Texel& t) {
-      errorsS.add(multipleScattering(medium_, shape_, t.h, t.mu, t.muS, t.nu, t.hitsGround),
+      errorsS.add(multipleScattering(medium_, shape_, t.h, t.mu, t.muS, t.nu, t.hitsGround) *
+                      shorterRay(medium_, shape_, t.h, t.mu, t.hitsGround, t.reach),
                   scattering.texel(x, y, z), floorS);
     });
     for (uint32_t y = 0; y < irradiance.info.height; ++y)

@@ -58,6 +58,7 @@ struct ScatteringTexel {
   float muS;
   float nu;
   bool hitsGround;
+  float reach;  // below 1: no ray maps to this texel, see shorterRay
 };
 
 ScatteringTexel scatteringTexel(ivec3 texel) {
@@ -67,6 +68,7 @@ ScatteringTexel scatteringTexel(ivec3 texel) {
   s.hitsGround = texel.y < int(shape.scatteringMu) / 2;
   float uMu = scatteringUnitMuFromTexel(float(texel.y), s.hitsGround, shape.scatteringMu);
   s.mu = scatteringMu(medium, s.h, uMu, s.hitsGround);
+  s.reach = scatteringReach(medium, s.h, uMu, s.hitsGround);
   s.muS = scatteringMuS(unitFromTexel(float(texel.x % sizeMuS), shape.scatteringMuS));
   float uNu = unitFromTexel(float(texel.x / sizeMuS), shape.scatteringNu);
   s.nu = clampNu(s.mu, s.muS, 2.0 * uNu - 1.0);

@@ -11,6 +11,7 @@ void main() {
   if (texel.z < 0) return;
   ScatteringTexel s = scatteringTexel(texel);
   Spectrum delta = multipleScattering(medium, shape, s.h, s.mu, s.muS, s.nu, s.hitsGround);
+  delta *= shorterRay(medium, shape, s.h, s.mu, s.hitsGround, s.reach);
   imageStore(deltaScattering, texel, vec4(delta, 0.0));
   // The Rayleigh phase function is taken out, as equation C_* has it, and multiplied back at run time.
   imageStore(scattering, texel, imageLoad(scattering, texel) + vec4(delta / rayleighPhase(s.nu), 0.0));

@@ -14,6 +14,9 @@ void main() {
   Spectrum rayleigh;
   Spectrum mie;
   singleScattering(medium, shape, s.h, s.mu, s.muS, s.nu, s.hitsGround, rayleigh, mie);
+  Spectrum shorter = shorterRay(medium, shape, s.h, s.mu, s.hitsGround, s.reach);
+  rayleigh *= shorter;
+  mie *= shorter;
   imageStore(deltaScattering, texel, vec4(rayleigh, 0.0));
   imageStore(deltaMie, texel, vec4(mie, 0.0));
   imageStore(scattering, texel, vec4(rayleigh, kMiePacked ? mie[0] : 0.0));

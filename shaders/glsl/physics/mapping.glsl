@@ -73,6 +73,17 @@ ALPENGLOW_FN Real scatteringMu(IN(Medium) m, Real h, Real uMu, bool hitsGround) 
                        : REAL(1.0);
 }
 
+// The paper's u_mu counts distances from 0, but the shortest ray is as long as the zenith or nadir is
+// away: texels below that stand for no ray, and scatteringMu gives them the shortest. This is the
+// distance that they stand for as a share of it; 1 for the texels that rays map to.
+ALPENGLOW_FN Real scatteringReach(IN(Medium) m, Real h, Real uMu, bool hitsGround) {
+  Real rho = horizonRho(m, h);
+  Real d = hitsGround ? rho * (REAL(1.0) - REAL(2.0) * uMu)
+                      : (rho + m.topRho) * (REAL(2.0) * uMu - REAL(1.0));
+  Real least = hitsGround ? h : m.thickness - h;
+  return least > REAL(0.0) ? clamp(d / least, REAL(0.0), REAL(1.0)) : REAL(1.0);
+}
+
 // Texture coordinate of u_mu: each half of the n texels is inset by half a texel.
 ALPENGLOW_FN Real scatteringCoordinateMu(Real uMu, bool hitsGround, Real n) {
   Real last = REAL(0.5) * n - REAL(1.0);
