@@ -27,6 +27,13 @@ TEST_F(Program, BakesWhatItsOptionsSay) {
   EXPECT_EQ(folder_.names().size(), 1u);
 }
 
+// Proves that the net of runProgram holds: asked for advice, the layer has something to say.
+TEST_F(Program, WhatValidationSaysIsHeard) {
+  const Outcome outcome = runProgram(bakeOf("earth", folder_ / "t.exr"), validated(true));
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("Validation"), std::string::npos) << outcome.out;
+}
+
 TEST_F(Program, TheSameBakeGivesTheSameFile) {
   expectGood(bakeOf("earth", folder_ / "a.exr"));
   expectGood(bakeOf("earth", folder_ / "b.exr"));

@@ -35,16 +35,35 @@ std::string shown(const std::vector<std::string>& arguments) {
 
 }  // namespace
 
+std::vector<std::string> validated(bool advice) {
+  static const TemporaryFolder folders[2];
+  const TemporaryFolder& folder = folders[advice ? 1 : 0];
+  folder.write("vk_layer_settings.txt",
+               "khronos_validation.debug_action = VK_DBG_LAYER_ACTION_LOG_MSG\n"
+               "khronos_validation.log_filename = stdout\n"
+               "khronos_validation.report_flags = error,warn" +
+                   std::string(advice ? ",perf" : "") +
+                   "\nkhronos_validation.enables = "
+                   "VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT" +
+                   (advice ? ",VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT" : "") + "\n");
+  return {"VK_INSTANCE_LAYERS=VK_LAYER_KHRONOS_validation",
+          "VK_LAYER_SETTINGS_PATH=" + folder.path()};
+}
+
 Outcome runProgram(const std::vector<std::string>& arguments,
                    const std::vector<std::string>& environment) {
+  const std::vector<std::string> variables = joined(validated(false), environment);
   const TemporaryFolder folder;
   const pid_t child = ::fork();
-  if (child == 0) becomeProgram(arguments, environment, folder / "out", folder / "err");
+  if (child == 0) becomeProgram(arguments, variables, folder / "out", folder / "err");
   int status = 0;
   EXPECT_EQ(::waitpid(child, &status, 0), child);
   EXPECT_TRUE(WIFEXITED(status)) << shown(arguments);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentsOf(folder / "out"),
-          contentsOf(folder / "err")};
+  const std::string out = contentsOf(folder / "out");
+  // Where a test asks for advice, it looks at the messages itself.
+  const bool asked = environment == validated(true);
+  EXPECT_TRUE(asked || out.find("Validation") == std::string::npos) << shown(arguments) << out;
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, out, contentsOf(folder / "err")};
 }
 
 const std::vector<std::string>& smallTables() {

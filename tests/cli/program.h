@@ -17,9 +17,15 @@ struct Outcome {
   std::string err;
 };
 
-/// Environment variables are set for the program only, as "NAME=value".
+/// Runs the program with core and synchronisation validation, whatever it turns on itself; a
+/// message of theirs fails the test. Environment variables are set for the program only, as
+/// "NAME=value".
 Outcome runProgram(const std::vector<std::string>& arguments,
                    const std::vector<std::string>& environment = {});
+
+/// The environment in which the validation layer speaks on standard output. `advice` adds best
+/// practices, of which there is always something to say.
+std::vector<std::string> validated(bool advice);
 
 /// Options that make bakes take a fraction of a second.
 const std::vector<std::string>& smallTables();
