@@ -45,7 +45,6 @@ TableDesc completed(const TableDesc& desc) {
 }
 
 Status checkTableDesc(const engine::Device& device, const TableDesc& desc) {
-  constexpr uint32_t kMostOrders = 100;
   const TableSizes& s = desc.sizes;
   if (desc.solver != Solver::Standard || desc.format > TableFormat::Float ||
       desc.mie > MieStorage::Packed) {
@@ -55,10 +54,10 @@ Status checkTableDesc(const engine::Device& device, const TableDesc& desc) {
                        static_cast<uint32_t>(desc.solver), static_cast<uint32_t>(desc.format),
                        static_cast<uint32_t>(desc.mie), 0u, 1u, 1u);
   }
-  if (desc.orders > kMostOrders) {
+  if (desc.orders > kMaxOrders) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
                        "TableDesc::orders is %u, but must be from 1 to %u, or 0 for the default.",
-                       desc.orders, kMostOrders);
+                       desc.orders, kMaxOrders);
   }
   const uint32_t most2D = device.limits().maxImageDimension2D;
   const uint32_t most3D = device.limits().maxImageDimension3D;

@@ -43,8 +43,8 @@ Check sizeBy(bool (*parse)(const std::string&, TableSizes*), const char* shape) 
 
 std::string checkOrders(const std::string& text) {
   const uint32_t orders = isWholeNumber(text) ? parseOrders(text) : 0;
-  if (orders >= 1 && orders <= io::kMaxOrders) return {};
-  return "'" + text + "' is not a whole number from 1 to " + std::to_string(io::kMaxOrders);
+  if (orders >= 1 && orders <= kMaxOrders) return {};
+  return "'" + text + "' is not a whole number from 1 to " + std::to_string(kMaxOrders);
 }
 
 std::string checkPictureSize(const std::string& text) {
@@ -88,7 +88,7 @@ void addTableOptions(CLI::App* command, TableArguments* arguments) {
   };
   add("--solver", &arguments->solver, "standard", "How the tables are solved (default standard)",
       oneOf({"standard"}));
-  add("--orders", &arguments->orders, "N", "Most events of a path, 1 to 64 (default 5)",
+  add("--orders", &arguments->orders, "N", "Most events of a path, 1 to 1000 (default 5)",
       checkOrders);
   add("--size-transmittance", &arguments->sizeTransmittance, "MUxR",
       "Texels of the transmittance (default 256x64)", sizeBy(io::parseTransmittanceSize, "MUxR"));

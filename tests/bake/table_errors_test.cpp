@@ -29,8 +29,8 @@ TEST_F(TableErrorsTest, WrongSizesAreRefusedByName) {
   desc.sizes.irradianceMuS = 1'000'000;
   expectRefused(desc, "irradianceMuS is 1000000");
   desc = {};
-  desc.orders = 101;
-  expectRefused(desc, "orders is 101");
+  desc.orders = 1001;
+  expectRefused(desc, "orders is 1001");
   desc = {};
   desc.format = static_cast<TableFormat>(9);
   expectRefused(desc, "format 9");

@@ -63,7 +63,7 @@ TEST_F(Program, UnknownCommandsAndOptions) {
 TEST_F(Program, WrongValues) {
   const std::pair<const char*, const char*> bad[] = {{"--solver", "moments"},
                                                      {"--orders", "0"},
-                                                     {"--orders", "65"},
+                                                     {"--orders", "1001"},
                                                      {"--orders", "-1"},
                                                      {"--orders", "two"},
                                                      {"--orders", "2.5"},

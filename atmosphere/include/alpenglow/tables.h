@@ -26,6 +26,9 @@ struct TableSizes {
 };
 TableSizes defaultTableSizes();
 
+/// Most orders of a bake: more than any air needs, few enough to number the passes.
+inline constexpr uint32_t kMaxOrders = 1000;
+
 struct TableDesc {
   Solver solver = Solver::Standard;
   uint32_t orders = 0;  ///< Most events of a path; 0 means the solver's default (5).

@@ -43,9 +43,8 @@ struct Scene {
   std::optional<uint32_t> orders;  ///< None: the solver's default.
 };
 
-/// Most pixels along a side of a picture, and most events of a path.
+/// Most pixels along a side of a picture.
 inline constexpr uint32_t kMaxPictureSide = 16384;
-inline constexpr uint32_t kMaxOrders = 64;
 
 /// Reads and checks everything, the atmosphere included; paths in the file are relative to it.
 Result<Scene> readScene(const std::string& path);
