@@ -103,7 +103,7 @@ TEST(SceneFile, RefusesWrongValuesByName) {
       {"size", "[99999, 3]"}, {"size", "\"big\""},   {"size", "[-1, 3]"},
       {"exposure", "0"},      {"exposure", "-1"},    {"exposure", "\"bright\""},
       {"exposure", "1e999"},  {"tone_map", "\"x\""}, {"tone_map", "null"},
-      {"orders", "0"},        {"orders", "1001"},      {"orders", "2.5"},
+      {"orders", "0"},        {"orders", "1001"},    {"orders", "2.5"},
       {"orders", "\"many\""}, {"ground", "3"},       {"ground", "{\"albedo_map\": 3}"}};
   for (const auto& [field, value] : bad) expectMentions(errorOf(with(field, value)), {field});
   const std::pair<const char*, const char*> camera[] = {
