@@ -143,11 +143,9 @@ Status Resources::pipeline(PassKind kind, TableFormat format, bool firstOrder, M
   const Key key = {kind, format, readsOrderBefore && firstOrder,
                    kind == PassKind::SingleScattering ? mie : MieStorage::Full};
   const std::scoped_lock lock(mutex_);
-  const auto found = pipelines_.find(key);
-  if (found != pipelines_.end()) {
-    *out = found->second;
-    return Status::Ok;
-  }
+  VkPipeline& slot = pipelines_[key];  // First, because it may throw.
+  *out = slot;
+  if (slot != VK_NULL_HANDLE) return Status::Ok;
   const engine::SpecConstant constants[] = {
       engine::specBool(0, std::get<2>(key)),
       engine::specBool(1, std::get<3>(key) == MieStorage::Packed)};
@@ -156,8 +154,8 @@ Status Resources::pipeline(PassKind kind, TableFormat format, bool firstOrder, M
   desc.layout = pipelineLayout_;
   desc.constants = constants;
   desc.constantCount = 2;
-  const Status status = engine::createComputePipeline(device_, desc, out);
-  if (status == Status::Ok) pipelines_.emplace(key, *out);
+  const Status status = engine::createComputePipeline(device_, desc, &slot);
+  *out = slot;
   return status;
 }
 

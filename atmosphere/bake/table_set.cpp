@@ -124,13 +124,18 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
     return device.fail(Status::OutOfHostMemory, VK_SUCCESS, "Tables found no host memory.");
   }
   ++resources.liveTables;
-  tables->passes_ = bake::standardPasses(desc.sizes, desc.orders);
-  for (const bake::Pass& pass : tables->passes_)
-    tables->unitsTotal_ += pass.unitsPerRow * pass.rows;
-  Status status = tables->makeImages();
-  if (status == Status::Ok) status = tables->makeUniforms();
-  if (status == Status::Ok) status = tables->makeDescriptors();
-  if (status == Status::Ok && bakes) status = tables->makePipelines();
+  Status status = Status::Ok;
+  try {
+    tables->passes_ = bake::standardPasses(desc.sizes, desc.orders);
+    for (const bake::Pass& pass : tables->passes_)
+      tables->unitsTotal_ += pass.unitsPerRow * pass.rows;
+    status = tables->makeImages();
+    if (status == Status::Ok) status = tables->makeUniforms();
+    if (status == Status::Ok) status = tables->makeDescriptors();
+    if (status == Status::Ok && bakes) status = tables->makePipelines();
+  } catch (const std::bad_alloc&) {  // No exception may reach the host.
+    status = device.fail(Status::OutOfHostMemory, VK_SUCCESS, "Tables found no host memory.");
+  }
   if (status != Status::Ok) {
     // Nothing was recorded with these tables: frame 0 has always completed.
     destroy(tables, FrameInfo{});

@@ -96,9 +96,11 @@ std::string resolve(const std::string& path) {
 
 Result<std::string> readFile(const std::string& path, uint64_t limit) {
   using Text = Result<std::string>;
+  // Opening must not wait for a writer that a FIFO doesn't have; reading must wait for the one it
+  // has.
   Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   struct stat info = {};
-  if (file.get() < 0 || ::fstat(file.get(), &info) != 0) {
+  if (file.get() < 0 || ::fstat(file.get(), &info) != 0 || ::fcntl(file.get(), F_SETFL, 0) != 0) {
     return Text::failure(cannot("read", path, errno).error);
   }
   if (S_ISDIR(info.st_mode)) return Text::failure("Cannot read '" + path + "': it is a folder.");

@@ -11,6 +11,7 @@ namespace alpenglow::io {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kMaxAltitude_m = 1e12;  // As recordProbe has it.
 
 // Reduced first, so that a large angle keeps its precision.
 double azimuthRadians(double degrees) { return radians(std::remainder(degrees, 360.0)); }
@@ -20,7 +21,7 @@ ProbeQuery irradianceQuery(JsonErrors* errors, const Json& value, const std::str
   reader.choice("kind", {"irradiance"});
   ProbeQuery query;
   query.irradiance = true;
-  query.altitude_m = reader.number("altitude_m", 0.0, kInfinity);
+  query.altitude_m = reader.number("altitude_m", 0.0, kMaxAltitude_m);
   query.sunZenith = radians(reader.number("sun_zenith_deg", 0.0, 180.0));
   return query;
 }
@@ -30,7 +31,7 @@ ProbeQuery rayQuery(JsonErrors* errors, const Json& value, const std::string& su
                       {"id", "kind", "altitude_m", "view_zenith_deg", "sun_zenith_deg",
                        "azimuth_deg", "distance_m"});
   ProbeQuery query;
-  query.altitude_m = reader.number("altitude_m", 0.0, kInfinity);
+  query.altitude_m = reader.number("altitude_m", 0.0, kMaxAltitude_m);
   query.viewZenith = radians(reader.number("view_zenith_deg", 0.0, 180.0));
   query.sunZenith = radians(reader.number("sun_zenith_deg", 0.0, 180.0));
   query.azimuth = azimuthRadians(reader.number("azimuth_deg"));

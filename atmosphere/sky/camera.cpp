@@ -1,6 +1,7 @@
 // Cameras and suns from angles, in the planet's frame.
 #include <alpenglow/view.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace alpenglow {
@@ -27,7 +28,8 @@ Camera cameraFromGeodetic(const Parameters& parameters, double latitude, double 
   const Frame f = localFrame(latitude, longitude);
   Camera camera;
   camera.fov = fov;
-  const double r = parameters.bottomRadius_m + altitude_m;
+  // Below the ground there is no place, and below the centre "up" would turn round.
+  const double r = parameters.bottomRadius_m + std::max(altitude_m, 0.0);
   for (int i = 0; i < 3; ++i) {
     const double ahead = std::cos(heading) * f.north[i] + std::sin(heading) * f.east[i];
     const double right = -std::sin(heading) * f.north[i] + std::cos(heading) * f.east[i];

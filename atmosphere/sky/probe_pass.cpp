@@ -2,6 +2,7 @@
 
 #include <alpenglow/shaders/probe.h>
 
+#include <cfloat>
 #include <cmath>
 #include <new>
 
@@ -28,7 +29,7 @@ Status checkQuery(const engine::Device& device, uint32_t index, const ProbeQuery
                 {"viewZenith", query.irradiance ? 0.0 : query.viewZenith, 0.0, kPi},
                 {"sunZenith", query.sunZenith, 0.0, kPi},
                 {"azimuth", query.irradiance ? 0.0 : query.azimuth, -1e9, 1e9},
-                {"distance_m", query.irradiance ? 0.0 : query.distance_m, -1e12, 1e12}};
+                {"distance_m", query.irradiance ? 0.0 : query.distance_m, -DBL_MAX, DBL_MAX}};
   for (const auto& field : fields) {
     if (field.value >= field.least && field.value <= field.most) continue;
     return device.fail(Status::InvalidArgument, VK_SUCCESS,

@@ -53,7 +53,7 @@ DrawnDisc drawnDisc(double radius, double pixel) {
   const double inPixels = chord / pixel;
   if (inPixels * inPixels >= 1.0 / 3.0)
     return {pixel * std::sqrt(inPixels * inPixels - 1.0 / 12.0), 1.0 / solidAngle};
-  return {0.5 * pixel, 3.0 * inPixels * inPixels / solidAngle};
+  return {0.5 * pixel, 3.0 / (kPi * pixel * pixel)};  // inPixels^2 / solidAngle: no 0/0.
 }
 
 bool unit(const double v[3]) { return std::abs(dot(v, v) - 1.0) < 1e-4; }  // false for NaN too

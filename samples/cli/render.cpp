@@ -38,7 +38,9 @@ void runRender(const RenderArguments& arguments) {
   TableRequest request = requestTables(arguments.tables, scene.atmosphere, &scene);
   checkOutputs(arguments.run);
 
-  Session session(arguments.run.device, kCapabilityBake | kCapabilitySky);
+  // Loaded tables need nothing of a bake.
+  const CapabilityFlags bake = request.file ? CapabilityFlags{0} : kCapabilityBake;
+  Session session(arguments.run.device, bake | kCapabilitySky);
   const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
   const io::LinearImage image =
       drawScene(&session, scene, albedo ? &*albedo : nullptr, ready.tables.get(), ready.desc.mie);

@@ -48,6 +48,37 @@ void expectContract(const nlohmann::json& list) {
   }
 }
 
+// A distance that no float holds is cut at the top like any other.
+TEST_F(Probe, CutsAnyDistance) {
+  nlohmann::json queries = nlohmann::json::parse(kQueries);
+  queries["queries"][0]["distance_m"] = 1e300;
+  folder_.write("q.json", queries.dump());
+  expectGood(probeOf(smallTables()));
+  const nlohmann::json cut = answers()[0];
+  folder_.write("q.json", kQueries);
+  expectGood(probeOf(smallTables()));
+  EXPECT_EQ(cut, answers()[0]);
+}
+
+// The rule for packed Mie takes its colour from Rayleigh scattering, if there is any.
+TEST_F(Probe, PackedMieNeedsNoRayleighScattering) {
+  nlohmann::json atmosphere = nlohmann::json::parse(runProgram({"presets", "mars"}).out);
+  atmosphere["rayleigh"] = nullptr;
+  const std::string file = folder_.write("dust.json", atmosphere.dump());
+  nlohmann::json skies[2];
+  for (const bool packed : {false, true}) {
+    std::vector<std::string> arguments = joined(probeOf(smallTables()), {"--format", "float"});
+    arguments[1] = file;
+    expectGood(joined(arguments, {"--mie", packed ? "packed" : "full"}));
+    skies[packed ? 1 : 0] = answers()[0]["sky_radiance"];
+  }
+  for (size_t i = 0; i < 3; ++i) {
+    const double full = skies[0][i];
+    EXPECT_GT(full, 0.0);
+    EXPECT_NEAR(skies[1][i].get<double>(), full, 0.3 * full) << i;
+  }
+}
+
 TEST_F(Probe, AnswersOnTheDevice) {
   expectGood(probeOf(smallTables()));
   EXPECT_EQ(schemaError(ALPENGLOW_SCHEMA_FOLDER, "answers.schema.json", jsonOf("a.json")), "");

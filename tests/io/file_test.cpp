@@ -3,6 +3,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <thread>
+
 #include "temporary_folder.h"
 
 namespace alpenglow::io {
@@ -93,6 +96,21 @@ TEST(ReadFile, StopsAtItsLimit) {
   expectSentence(readFile("/dev/zero", 1000).error);
   expectSentence(readFile(folder / "absent", 10).error);
   expectSentence(readFile(folder.path(), 10).error);
+}
+
+TEST(ReadFile, WaitsForAPipesWriter) {
+  int ends[2] = {};
+  ASSERT_EQ(::pipe(ends), 0);
+  std::thread writer([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_EQ(::write(ends[1], "late", 4), 4);
+    ::close(ends[1]);
+  });
+  const Result<std::string> text = readFile("/dev/fd/" + std::to_string(ends[0]), 10);
+  writer.join();
+  ::close(ends[0]);
+  ASSERT_TRUE(text) << text.error;
+  EXPECT_EQ(*text, "late");
 }
 
 }  // namespace

@@ -108,6 +108,14 @@ TEST_F(SkyTest, DiscHasTheSunsPowerAtAnyResolution) {
   }
 }
 
+// The power stays even where the square of the radius is no longer a number.
+TEST_F(SkyTest, DiscOfNoWidthIsFinite) {
+  const Parameters earth = preset("earth");
+  SkyDraw draw = towardsSun(earth, 1e7, 1.2, radians(20.0), {48, 48});
+  draw.sun.discRadius = 1e-200;
+  EXPECT_NEAR(power(picture(draw), draw, Projection::Perspective), 1.0, 0.25);
+}
+
 TEST_F(SkyTest, NoDiscBehindTheGround) {
   const Parameters earth = preset("earth");
   for (const double altitude : {0.0, 2.0, 1e4, 3.6e7}) {

@@ -164,6 +164,10 @@ TEST(CameraTest, AnglesOfTheGround) {
   expect(c.position_m, {earth.bottomRadius_m + 100.0, 0.0, 0.0}, "position");
   expect(c.forward, {0.0, 0.0, 1.0}, "north");
   expect(c.up, {1.0, 0.0, 0.0}, "up");
+  for (const double below : {-1.0, -earth.bottomRadius_m, -2.0 * earth.bottomRadius_m}) {
+    c = cameraFromGeodetic(earth, 0.0, 0.0, below, 0.0, 0.0, 0.0, 1.0);
+    expect(c.position_m, {earth.bottomRadius_m, 0.0, 0.0}, "below the ground");
+  }
   c = cameraFromGeodetic(earth, 0.0, 0.0, 0.0, radians(90.0), 0.0, radians(90.0), 1.0);
   expect(c.forward, {0.0, 1.0, 0.0}, "east");
   expect(c.up, {0.0, 0.0, -1.0}, "rolled clockwise: up points right, to the south");

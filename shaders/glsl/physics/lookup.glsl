@@ -78,13 +78,16 @@ ALPENGLOW_FN Spectrum skyIrradiance(IN(Medium) m, IN(TableShape) shape, Real h, 
 }
 
 // The rule of section 4 of the paper for single Mie scattering of which only the first channel is
-// stored: C_M ~ C_* (C_M,r / C_*,r) (beta_R,r / beta_M,r) (beta_M / beta_R).
+// stored: C_M ~ C_* (C_M,r / C_*,r) (beta_R,r / beta_M,r) (beta_M / beta_R). Without Rayleigh scattering
+// there is no C_* to take the colour from, and beta_M has it.
 ALPENGLOW_FN Spectrum unpackSingleMie(IN(Medium) m, Real4 packed_) {
   Spectrum rayleigh = Spectrum(packed_[0], packed_[1], packed_[2]);
   Spectrum ratio = m.mieScattering / max(m.rayleighScattering, SPECTRUM(REAL(1e-30)));
   Spectrum c = rayleigh * (packed_[3] / max(packed_[0], REAL(1e-30)));
-  return packed_[0] > REAL(0.0) ? c * (ratio / max(ratio[0], REAL(1e-30)))
-                                : SPECTRUM(REAL(0.0));
+  Spectrum plain = m.mieScattering * (packed_[3] / max(m.mieScattering[0], REAL(1e-30)));
+  return packed_[0] > REAL(0.0) && m.rayleighScattering[0] > REAL(0.0)
+             ? c * (ratio / max(ratio[0], REAL(1e-30)))
+             : plain;
 }
 
 // S[L] of a whole ray, equation 11: C_* P_R + C_M P_M.
