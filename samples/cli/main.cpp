@@ -135,6 +135,14 @@ int parseAndRun(int argc, char** argv) {
   return 0;
 }
 
+// Names and ids from outside may hold anything; a sentence is one line all the same.
+void say(std::string sentence) {
+  for (char& c : sentence) {
+    if (static_cast<unsigned char>(c) < ' ' || c == '\x7F') c = '?';
+  }
+  std::fprintf(stderr, "%s\n", sentence.c_str());
+}
+
 }  // namespace
 }  // namespace alpenglow::cli
 
@@ -142,12 +150,12 @@ int main(int argc, char** argv) {
   try {
     return alpenglow::cli::parseAndRun(argc, argv);
   } catch (const alpenglow::cli::Failure& failure) {
-    std::fprintf(stderr, "%s\n", failure.what());
+    alpenglow::cli::say(failure.what());
     return failure.exitStatus();
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "There is not enough memory for this.\n");
   } catch (const std::exception& problem) {
-    std::fprintf(stderr, "The program failed: %s.\n", problem.what());
+    alpenglow::cli::say(std::string("The program failed: ") + problem.what() + ".");
   }
   return alpenglow::cli::Failure::kFailed;
 }

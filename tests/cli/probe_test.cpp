@@ -60,6 +60,11 @@ TEST_F(Probe, CutsAnyDistance) {
   EXPECT_EQ(cut, answers()[0]);
 }
 
+TEST_F(Probe, SaysOneLineWhateverAnIdHolds) {
+  folder_.write("q.json", R"({"queries": [{"id": "a\nb\u001b[31m"}]})");
+  expectRefused(probeOf({}), {"a?b?[31m", "altitude_m"});
+}
+
 // The rule for packed Mie takes its colour from Rayleigh scattering, if there is any.
 TEST_F(Probe, PackedMieNeedsNoRayleighScattering) {
   nlohmann::json atmosphere = nlohmann::json::parse(runProgram({"presets", "mars"}).out);
