@@ -18,6 +18,14 @@ Status createView(Context* context, const ViewDesc& desc, View** out) {
 
 void destroyView(View* view, const FrameInfo& frame) { View::destroy(view, frame); }
 
+Status recordSkySlice(View* view, VkCommandBuffer commands, const FrameInfo& frame,
+                      const Tables* tables, const SkyDraw& draw) {
+  if (view == nullptr || tables == nullptr || commands == VK_NULL_HANDLE)
+    return Status::InvalidArgument;
+  view->collect(frame);
+  return view->recordSlice(commands, *tables, draw);
+}
+
 Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame, const Tables* tables,
                  const SkyDraw& draw) {
   if (view == nullptr || tables == nullptr || commands == VK_NULL_HANDLE)

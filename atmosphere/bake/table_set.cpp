@@ -111,6 +111,7 @@ Tables::Tables(bake::Resources& resources, const Parameters& parameters, const T
                bool bakes)
     : resources_(resources),
       device_(resources.device()),
+      id_(++resources.tablesMade),
       parameters_(parameters),
       desc_(desc),
       bakes_(bakes) {}

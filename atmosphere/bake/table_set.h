@@ -58,6 +58,7 @@ struct Tables {
   const TableDesc& desc() const { return desc_; }
   VkDescriptorSet descriptorSet() const { return tableSet_; }
   bake::Resources& resources() const { return resources_; }
+  uint64_t id() const { return id_; }  ///< From 1; unique in the context.
   /// InvalidArgument with a sentence when an image is not where descriptorSet() says.
   Status assertReadable() const;
 
@@ -81,6 +82,7 @@ struct Tables {
 
   bake::Resources& resources_;
   engine::Device& device_;
+  uint64_t id_;
   Parameters parameters_;
   TableDesc desc_;
   bool bakes_;

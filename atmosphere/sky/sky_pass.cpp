@@ -2,6 +2,8 @@
 
 #include <alpenglow/shaders/sky_fragment.h>
 #include <alpenglow/shaders/sky_fragment_map.h>
+#include <alpenglow/shaders/sky_fragment_map_slice.h>
+#include <alpenglow/shaders/sky_fragment_slice.h>
 #include <alpenglow/shaders/sky_vertex.h>
 
 #include <bit>
@@ -74,8 +76,11 @@ Status View::create(bake::Resources& resources, const ViewDesc& desc, View** out
     return device.fail(Status::OutOfHostMemory, VK_SUCCESS, "A view found no host memory.");
   }
   ++resources.liveViews;
-  Status status = view->makeLayout();
-  if (status == Status::Ok) status = view->makePipelines();
+  Status status = view->makeSlice();
+  if (status == Status::Ok) status = view->makeLayout();
+  if (status == Status::Ok) status = view->makePipelines(false, view->pipelines_);
+  if (status == Status::Ok && view->slice_ != nullptr)
+    status = view->makePipelines(true, view->slicePipelines_);
   if (status != Status::Ok) {
     destroy(view, FrameInfo{});  // Nothing was recorded with it: frame 0 has always completed.
     return status;
@@ -88,53 +93,97 @@ void View::destroy(View* view, const FrameInfo& frame) {
   if (view == nullptr) return;
   --view->resources_.liveViews;
   engine::DeletionQueue& deletions = view->device_.deletions();
-  for (VkPipeline pipeline : view->pipelines_)
-    deletions.defer(frame.submitting, VK_OBJECT_TYPE_PIPELINE, engine::handleNumber(pipeline));
+  for (const auto* pipelines : {&view->pipelines_, &view->slicePipelines_})
+    for (VkPipeline pipeline : *pipelines)
+      deletions.defer(frame.submitting, VK_OBJECT_TYPE_PIPELINE, engine::handleNumber(pipeline));
   deletions.defer(frame.submitting, VK_OBJECT_TYPE_PIPELINE_LAYOUT,
                   engine::handleNumber(view->layout_));
   deletions.defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
                   engine::handleNumber(view->pool_));
   deletions.defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT,
-                  engine::handleNumber(view->mapLayout_));
+                  engine::handleNumber(view->setLayout_));
+  sky::SkySlice::destroy(view->slice_, frame);
   delete view;
   deletions.collect(frame.completed);
 }
 
-Status View::makeLayout() {
-  const VkDescriptorSetLayoutBinding binding = {0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
-                                                VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
-  VkDescriptorSetLayout sets[2] = {resources_.tableLayout(), VK_NULL_HANDLE};
-  uint32_t setCount = 1;
-  if (desc_.groundAlbedo.view != VK_NULL_HANDLE) {
-    Status status =
-        engine::createSetLayout(device_, &binding, 1, "Alpenglow albedo map", &mapLayout_);
-    if (status != Status::Ok) return status;
-    const engine::PoolPart part = {&binding, 1, 1};
-    status = engine::createPool(device_, &part, 1, "Alpenglow view", &pool_);
-    if (status != Status::Ok) return status;
-    status = engine::allocateSets(device_, pool_, &mapLayout_, 1, "Alpenglow albedo map", &mapSet_);
-    if (status != Status::Ok) return status;
-    engine::DescriptorWriter writer(mapSet_);
-    writer.sampledImage(0, desc_.groundAlbedo.view, desc_.groundAlbedo.sampler,
-                        desc_.groundAlbedo.layout);
-    status = writer.flush(device_);
-    if (status != Status::Ok) return status;
-    sets[setCount++] = mapLayout_;
+Status View::makeSlice() {
+  if (desc_.skySlice == nullptr) return Status::Ok;
+  if (desc_.skySlice->desc().mie != desc_.mie || &desc_.skySlice->resources() != &resources_) {
+    return device_.fail(Status::InvalidArgument, VK_SUCCESS,
+                        "ViewDesc::skySlice has tables %s, but needs tables of the view's context "
+                        "that store single Mie scattering as ViewDesc::mie says.",
+                        &desc_.skySlice->resources() != &resources_ ? "of another context"
+                                                                    : "with another MieStorage");
   }
+  const TableSizes sizes = desc_.skySlice->desc().sizes;
+  desc_.skySlice = nullptr;  // Only their shape counts: they may be destroyed before the view.
+  return sky::SkySlice::create(resources_, sizes, desc_.mie, &slice_);
+}
+
+// Set 1 of the fragment shader: the albedo map at binding 0, the slice at 1 and 2; what there is of
+// it.
+Status View::makeLayout() {
+  VkDescriptorSetLayoutBinding bindings[3];
+  uint32_t count = 0;
+  const auto add = [&](uint32_t binding) {
+    bindings[count++] = {binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
+                         VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
+  };
+  if (desc_.groundAlbedo.view != VK_NULL_HANDLE) add(0);
+  if (slice_ != nullptr) {
+    add(1);
+    add(2);
+  }
+  if (count > 0) {
+    const Status status = makeSet(bindings, count);
+    if (status != Status::Ok) return status;
+  }
+  const VkDescriptorSetLayout sets[2] = {resources_.tableLayout(), setLayout_};
   const VkPushConstantRange range = {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(sky::SkyConstants)};
-  return engine::createPipelineLayout(device_, sets, setCount, &range, 1, "Alpenglow sky",
+  return engine::createPipelineLayout(device_, sets, count > 0 ? 2 : 1, &range, 1, "Alpenglow sky",
                                       &layout_);
 }
 
-Status View::makePipelines() {
+Status View::makeSet(const VkDescriptorSetLayoutBinding* bindings, uint32_t count) {
+  Status status = engine::createSetLayout(device_, bindings, count, "Alpenglow view", &setLayout_);
+  if (status != Status::Ok) return status;
+  const engine::PoolPart part = {bindings, count, 1};
+  status = engine::createPool(device_, &part, 1, "Alpenglow view", &pool_);
+  if (status != Status::Ok) return status;
+  status = engine::allocateSets(device_, pool_, &setLayout_, 1, "Alpenglow view", &set_);
+  if (status != Status::Ok) return status;
+  engine::DescriptorWriter writer(set_);
+  if (desc_.groundAlbedo.view != VK_NULL_HANDLE) {
+    writer.sampledImage(0, desc_.groundAlbedo.view, desc_.groundAlbedo.sampler,
+                        desc_.groundAlbedo.layout);
+  }
+  if (slice_ != nullptr) {
+    writer.sampledImage(1, slice_->image().view, resources_.sampler())
+        .sampledImage(2, slice_->mieImage().view, resources_.sampler());
+  }
+  return writer.flush(device_);
+}
+
+namespace {
+
+engine::Shader fragmentShader(bool map, bool slice) {
+  namespace s = alpenglow::shaders;
+  if (map && slice)
+    return {s::kSkyFragmentMapSlice, sizeof s::kSkyFragmentMapSlice, "sky.frag map slice"};
+  if (map) return {s::kSkyFragmentMap, sizeof s::kSkyFragmentMap, "sky.frag map"};
+  if (slice) return {s::kSkyFragmentSlice, sizeof s::kSkyFragmentSlice, "sky.frag slice"};
+  return {s::kSkyFragment, sizeof s::kSkyFragment, "sky.frag"};
+}
+
+}  // namespace
+
+Status View::makePipelines(bool slice, VkPipeline* pipelines) {
   namespace s = alpenglow::shaders;
   const bool reversed = desc_.depth == DepthConvention::Reversed;
   engine::GraphicsPipelineDesc desc;
   desc.vertex = {s::kSkyVertex, sizeof s::kSkyVertex, "sky.vert"};
-  desc.fragment =
-      desc_.groundAlbedo.view != VK_NULL_HANDLE
-          ? engine::Shader{s::kSkyFragmentMap, sizeof s::kSkyFragmentMap, "sky.frag map"}
-          : engine::Shader{s::kSkyFragment, sizeof s::kSkyFragment, "sky.frag"};
+  desc.fragment = fragmentShader(desc_.groundAlbedo.view != VK_NULL_HANDLE, slice);
   desc.layout = layout_;
   desc.colorFormat = desc_.colorFormat;
   desc.depthFormat = desc_.depthFormat;
@@ -151,19 +200,19 @@ Status View::makePipelines() {
         engine::specFloat(4, reversed ? 0.0f : 1.0f)};
     desc.constants = constants;
     desc.constantCount = 5;
-    const Status status = engine::createGraphicsPipeline(device_, desc, &pipelines_[i]);
+    const Status status = engine::createGraphicsPipeline(device_, desc, &pipelines[i]);
     if (status != Status::Ok) return status;
   }
   return Status::Ok;
 }
 
-Status View::recordSky(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw) {
-  Status status = sky::checkDraw(device_, desc_, draw);
+Status View::checkRecord(const Tables& tables, const SkyDraw& draw, const char* call) const {
+  const Status status = sky::checkDraw(device_, desc_, draw);
   if (status != Status::Ok) return status;
   if (&tables.resources() != &resources_) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
-                        "recordSky got tables of another context, but a view draws with those of "
-                        "its own.");
+                        "%s got tables of another context, but a view draws with those of its own.",
+                        call);
   }
   if (tables.desc().mie != desc_.mie) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
@@ -171,7 +220,32 @@ Status View::recordSky(VkCommandBuffer commands, const Tables& tables, const Sky
                         tables.desc().mie == MieStorage::Full ? "in full" : "packed",
                         desc_.mie == MieStorage::Full ? "in full" : "packed");
   }
-  status = tables.assertReadable();
+  return tables.assertReadable();
+}
+
+Status View::recordSlice(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw) {
+  const Status status = checkRecord(tables, draw, "recordSkySlice");
+  if (status != Status::Ok) return status;
+  if (slice_ == nullptr) {
+    return device_.fail(Status::InvalidArgument, VK_SUCCESS,
+                        "recordSkySlice got a view without a slice, but needs one made with "
+                        "ViewDesc::skySlice.");
+  }
+  if (!slice_->fits(tables)) {
+    const TableSizes& sizes = tables.desc().sizes;
+    return device_.fail(Status::InvalidArgument, VK_SUCCESS,
+                        "recordSkySlice got tables with %u mu and %u nu, but the view's slice was "
+                        "made for another shape.",
+                        sizes.scatteringMu, sizes.scatteringNu);
+  }
+  return sky::SkySlice::inside(tables, draw) ? slice_->record(commands, tables, draw) : Status::Ok;
+}
+
+Status View::recordSky(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw) {
+  Status status = checkRecord(tables, draw, "recordSky");
+  if (status != Status::Ok) return status;
+  const bool fromSlice = slice_ != nullptr && slice_->serves(tables, draw);
+  if (fromSlice) status = slice_->assertReadable();
   if (status != Status::Ok) return status;
 
   const engine::Dispatch& vk = device_.vk();
@@ -184,12 +258,13 @@ Status View::recordSky(VkCommandBuffer commands, const Tables& tables, const Sky
                                static_cast<float>(area.extent.height),
                                0.0f,
                                1.0f};
-  const VkDescriptorSet sets[2] = {tables.descriptorSet(), mapSet_};
-  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_[chosen]);
+  const VkDescriptorSet sets[2] = {tables.descriptorSet(), set_};
+  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+                     fromSlice ? slicePipelines_[chosen] : pipelines_[chosen]);
   vk.CmdSetViewport(commands, 0, 1, &viewport);
   vk.CmdSetScissor(commands, 0, 1, &area);
   vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0,
-                           mapSet_ != VK_NULL_HANDLE ? 2 : 1, sets, 0, nullptr);
+                           set_ != VK_NULL_HANDLE ? 2 : 1, sets, 0, nullptr);
   vk.CmdPushConstants(commands, layout_, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,
                       &constants);
   vk.CmdDraw(commands, 3, 1, 0, 0);

@@ -4,6 +4,7 @@
 #include <alpenglow/view.h>
 
 #include "atmosphere/bake/table_set.h"
+#include "atmosphere/sky/sky_slice.h"
 
 namespace alpenglow {
 namespace sky {
@@ -43,14 +44,18 @@ struct View {
  public:
   static Status create(bake::Resources& resources, const ViewDesc& desc, View** out);
   static void destroy(View* view, const FrameInfo& frame);
+  Status recordSlice(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw);
   Status recordSky(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw);
   void collect(const FrameInfo& frame) { device_.deletions().collect(frame.completed); }
 
  private:
   View(bake::Resources& resources, const ViewDesc& desc)
       : resources_(resources), device_(resources.device()), desc_(desc) {}
+  Status makeSlice();
   Status makeLayout();
-  Status makePipelines();
+  Status makeSet(const VkDescriptorSetLayoutBinding* bindings, uint32_t count);
+  Status makePipelines(bool slice, VkPipeline* pipelines);
+  Status checkRecord(const Tables& tables, const SkyDraw& draw, const char* call) const;
 
   static constexpr uint32_t kVariants = 4;  ///< Ground in view or not, disc in view or not.
   static uint32_t variant(const sky::Visible& v) {
@@ -60,11 +65,13 @@ struct View {
   bake::Resources& resources_;
   engine::Device& device_;
   ViewDesc desc_;
-  VkDescriptorSetLayout mapLayout_ = VK_NULL_HANDLE;  ///< Only with an albedo map.
+  sky::SkySlice* slice_ = nullptr;                    ///< Only with ViewDesc::skySlice.
+  VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;  ///< Only with a map or a slice.
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
-  VkDescriptorSet mapSet_ = VK_NULL_HANDLE;
+  VkDescriptorSet set_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipelines_[kVariants] = {};
+  VkPipeline slicePipelines_[kVariants] = {};  ///< Only with a slice.
 };
 
 }  // namespace v1

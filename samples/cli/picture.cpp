@@ -136,9 +136,11 @@ void recordPicture(Session* session, VkCommandBuffer commands, const headless::I
   rendering.layerCount = 1;
   rendering.colorAttachmentCount = 1;
   rendering.pColorAttachments = &color;
+  const FrameInfo frame = session->device().frame();
+  session->check(recordSkySlice(view, commands, frame, tables, draw));
   transition(session, commands, target, kUndefined, kDrawn);
   session->function<PFN_vkCmdBeginRendering>("vkCmdBeginRendering")(commands, &rendering);
-  session->check(recordSky(view, commands, session->device().frame(), tables, draw));
+  session->check(recordSky(view, commands, frame, tables, draw));
   session->function<PFN_vkCmdEndRendering>("vkCmdEndRendering")(commands);
   transition(session, commands, target, kDrawn, kCopied);
 }
@@ -183,6 +185,7 @@ io::LinearImage drawScene(Session* session, const io::Scene& scene, const io::Al
   desc.colorFormat = kColorFormat;
   desc.projection = scene.camera.projection;
   desc.mie = mie;
+  desc.skySlice = tables;
   if (albedo != nullptr) {
     albedoImage = uploadAlbedo(session, *albedo);
     desc.groundAlbedo = {albedoImage.view(), sampler.get(), kSampled.layout,

@@ -41,6 +41,9 @@ struct ViewDesc {
   Projection projection = Projection::Perspective;
   MieStorage mie = MieStorage::Full;  ///< As the tables that will be drawn with.
   GroundAlbedoMap groundAlbedo;
+  /// Tables whose shape a sky slice takes; null: the view has none. With a slice, recordSkySlice
+  /// once a frame makes a pixel of recordSky cost about half, for cameras inside the atmosphere.
+  const Tables* skySlice = nullptr;
 };
 
 /// Checks the description and makes the pipelines.
@@ -72,6 +75,15 @@ struct SkyDraw {
                                ///< floats; 0 means 1.
   VkRect2D viewport = {};      ///< In pixels of the colour attachment.
 };
+
+/// Records, outside any rendering scope, the slice of the scattering table that this draw's camera
+/// and sun look into: one small dispatch. A recordSky of the same tables, camera position and sun
+/// direction that follows in recording order reads it, to the same picture; any other reads the
+/// tables. InvalidArgument without ViewDesc::skySlice, and for tables of another shape. Nothing is
+/// recorded for a camera outside the atmosphere. Clobbers: compute pipeline, sets 0 and 1, push
+/// constants.
+Status recordSkySlice(View* view, VkCommandBuffer commands, const FrameInfo& frame,
+                      const Tables* tables, const SkyDraw& draw);
 
 /// Records one full-screen draw of the viewport inside the host's rendering scope, with dynamic
 /// viewport and scissor. The tables must be ready. Clobbers: graphics pipeline, sets 0 and 1, push

@@ -90,7 +90,13 @@ ALPENGLOW_FN Spectrum unpackSingleMie(IN(Medium) m, Real4 packed_) {
              : plain;
 }
 
-// S[L] of a whole ray, equation 11: C_* P_R + C_M P_M.
+// C_* P_R + C_M P_M, from what the tables hold for a ray; `mie` counts where C_M is stored in full.
+ALPENGLOW_FN Spectrum scatteringFromTexels(IN(Medium) m, Real4 c, Spectrum mie, Real nu) {
+  Spectrum single = ALPENGLOW_MIE_PACKED ? unpackSingleMie(m, c) : mie;
+  return Spectrum(c[0], c[1], c[2]) * rayleighPhase(nu) + single * miePhase(m.mieAsymmetry, nu);
+}
+
+// S[L] of a whole ray, equation 11.
 ALPENGLOW_FN Spectrum scatteringOfRay(IN(Medium) m, IN(TableShape) shape, Real h, Real mu, Real muS,
                                       Real nu, bool hitsGround) {
   Real2 slice = nuSlice(shape, nu);
@@ -98,11 +104,27 @@ ALPENGLOW_FN Spectrum scatteringOfRay(IN(Medium) m, IN(TableShape) shape, Real h
                 Real3(slice[0], REAL(0.0), REAL(0.0));
   Real3 upper = lower + Real3(REAL(1.0) / shape.scatteringNu, REAL(0.0), REAL(0.0));
   Real4 c = mix(readScattering(lower), readScattering(upper), slice[1]);
-  Spectrum mie = ALPENGLOW_MIE_PACKED
-                     ? unpackSingleMie(m, c)
-                     : mix(readSingleMie(lower), readSingleMie(upper), slice[1]);
-  return Spectrum(c[0], c[1], c[2]) * rayleighPhase(nu) + mie * miePhase(m.mieAsymmetry, nu);
+  Spectrum mie = SPECTRUM(REAL(0.0));
+  if (!ALPENGLOW_MIE_PACKED) mie = mix(readSingleMie(lower), readSingleMie(upper), slice[1]);
+  return scatteringFromTexels(m, c, mie, nu);
 }
+
+#ifdef ALPENGLOW_SLICE_READS
+
+// The same for the rays of one point under one sun, from a slice of S at its r and mu_s: x = nu, y = mu,
+// the includer's readSlice and readSliceMie. Interpolation commutes: it is the same number, of two fetches
+// in two dimensions instead of four in three.
+ALPENGLOW_FN Spectrum scatteringOfRayInSlice(IN(Medium) m, IN(TableShape) shape, Real h, Real mu,
+                                             Real nu, bool hitsGround) {
+  Real2 at = Real2(insetCoordinate(scatteringUnitNu(nu), shape.scatteringNu),
+                   scatteringCoordinateMu(scatteringUnitMu(m, h, mu, hitsGround), hitsGround,
+                                          shape.scatteringMu));
+  Spectrum mie = SPECTRUM(REAL(0.0));
+  if (!ALPENGLOW_MIE_PACKED) mie = readSliceMie(at);
+  return scatteringFromTexels(m, readSlice(at), mie, nu);
+}
+
+#endif  // ALPENGLOW_SLICE_READS
 
 // S|x - T(x, xs) S|xs, equation 13: light scattered in the first d metres of a ray. One decision about
 // the horizon serves both ends. Where d reaches the end of the ray, S|xs is zero.

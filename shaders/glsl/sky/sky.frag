@@ -8,6 +8,16 @@ layout(constant_id = 1) const bool kFisheye = false;
 layout(constant_id = 2) const bool kGround = true;  // some pixels may see the ground
 layout(constant_id = 3) const bool kSunDisc = true;
 
+#ifdef ALPENGLOW_SKY_SLICE
+// S at the camera's altitude under this frame's sun: sky_slice.comp. For cameras inside the atmosphere.
+#include "physics/types.glsl"
+#define ALPENGLOW_SLICE_READS
+layout(set = 1, binding = 1) uniform sampler2D sliceTable;
+layout(set = 1, binding = 2) uniform sampler2D sliceMieTable;
+vec4 readSlice(vec2 uv) { return textureLod(sliceTable, uv, 0.0); }
+Spectrum readSliceMie(vec2 uv) { return textureLod(sliceMieTable, uv, 0.0).rgb; }
+#endif
+
 #define ALPENGLOW_MIE_PACKED kMiePacked
 #include "alpenglow/atmosphere.glsl"
 
@@ -84,7 +94,12 @@ void main() {
   vec3 view = viewDirection(visible);
   Ray ray = alpenglowRay(upAltitude.xyz, upAltitude.w, view, sunDiscChord.xyz);
   if (!kGround) ray.hitsGround = false;
+#ifdef ALPENGLOW_SKY_SLICE
+  Spectrum light = scatteringOfRayInSlice(alpenglowMedium, alpenglowShape, ray.h, ray.mu, ray.nu,
+                                          ray.hitsGround);
+#else
   Spectrum light = alpenglowSkyRadiance(ray);
+#endif
   if (kGround) light += groundTerm(ray, view);
   if (kSunDisc) light += discTerm(ray, view);
   light = visible ? light * irradianceDisc.rgb : SPECTRUM(0.0);

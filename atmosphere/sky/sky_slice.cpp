@@ -1,0 +1,167 @@
+#include "atmosphere/sky/sky_slice.h"
+
+#include <alpenglow/shaders/sky_slice_rgba16f.h>
+#include <alpenglow/shaders/sky_slice_rgba32f.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+namespace alpenglow::sky {
+namespace {
+
+struct SliceConstants {
+  float altitude, muS;
+};
+
+constexpr VkDescriptorSetLayoutBinding kBindings[2] = {
+    {0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
+    {1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}};
+
+double length(const double v[3]) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+// 32 bits where the device filters them: the slice must not round what the tables hold.
+VkFormat sliceFormat(const engine::Device& device) {
+  const VkFormatFeatureFlags needed =
+      VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT | VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
+  const VkFormat wide = VK_FORMAT_R32G32B32A32_SFLOAT;
+  return (device.formatProperties(wide).optimalTilingFeatures & needed) == needed
+             ? wide
+             : VK_FORMAT_R16G16B16A16_SFLOAT;
+}
+
+}  // namespace
+
+Status SkySlice::create(bake::Resources& resources, const TableSizes& sizes, MieStorage mie,
+                        SkySlice** out) {
+  *out = nullptr;
+  auto* slice = new (std::nothrow) SkySlice(resources, sizes, mie);
+  if (slice == nullptr) {
+    return resources.device().fail(Status::OutOfHostMemory, VK_SUCCESS,
+                                   "A sky slice found no host memory.");
+  }
+  const Status status = slice->make();
+  if (status != Status::Ok) {
+    destroy(slice, FrameInfo{});  // Nothing was recorded with it: frame 0 has always completed.
+    return status;
+  }
+  *out = slice;
+  return Status::Ok;
+}
+
+void SkySlice::destroy(SkySlice* slice, const FrameInfo& frame) {
+  if (slice == nullptr) return;
+  engine::Device& device = slice->device_;
+  engine::DeletionQueue& deletions = device.deletions();
+  const auto defer = [&](VkObjectType type, auto handle) {
+    deletions.defer(frame.submitting, type, engine::handleNumber(handle));
+  };
+  defer(VK_OBJECT_TYPE_PIPELINE, slice->pipeline_);
+  defer(VK_OBJECT_TYPE_PIPELINE_LAYOUT, slice->layout_);
+  defer(VK_OBJECT_TYPE_DESCRIPTOR_POOL, slice->pool_);
+  defer(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, slice->setLayout_);
+  for (engine::Image& image : slice->images_) engine::deferImage(device, frame.submitting, &image);
+  engine::deferBlock(device, frame.submitting, &slice->block_);
+  delete slice;
+  deletions.collect(frame.completed);
+}
+
+Status SkySlice::make() {
+  const VkFormat format = sliceFormat(device_);
+  engine::Image* images[] = {&images_[0], &images_[1]};
+  for (uint32_t i = 0; i < count_; ++i) {
+    engine::ImageDesc desc;
+    desc.format = format;
+    desc.extent = {sizes_.scatteringNu, sizes_.scatteringMu, 1};
+    desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
+    desc.name = i == 0 ? "Alpenglow sky slice" : "Alpenglow sky slice Mie";
+    const Status made = engine::createImage(device_, desc, images[i]);
+    if (made != Status::Ok) return made;
+  }
+  Status status =
+      engine::allocateAndBind(device_, "Alpenglow sky slice", VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                              images, count_, nullptr, 0, &block_);
+  if (status != Status::Ok) return status;
+  status = engine::createSetLayout(device_, kBindings, 2, "Alpenglow sky slice", &setLayout_);
+  if (status != Status::Ok) return status;
+  const engine::PoolPart part = {kBindings, 2, 1};
+  status = engine::createPool(device_, &part, 1, "Alpenglow sky slice", &pool_);
+  if (status != Status::Ok) return status;
+  status = engine::allocateSets(device_, pool_, &setLayout_, 1, "Alpenglow sky slice", &set_);
+  if (status != Status::Ok) return status;
+  engine::DescriptorWriter writer(set_);
+  writer.storageImage(0, image().view).storageImage(1, mieImage().view);
+  status = writer.flush(device_);
+  if (status != Status::Ok) return status;
+  return makePipeline(format);
+}
+
+Status SkySlice::makePipeline(VkFormat format) {
+  const VkDescriptorSetLayout sets[] = {resources_.tableLayout(), setLayout_};
+  const VkPushConstantRange range = {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(SliceConstants)};
+  const Status status =
+      engine::createPipelineLayout(device_, sets, 2, &range, 1, "Alpenglow sky slice", &layout_);
+  if (status != Status::Ok) return status;
+  namespace s = alpenglow::shaders;
+  const engine::SpecConstant packed = engine::specBool(0, mie_ == MieStorage::Packed);
+  engine::ComputePipelineDesc desc;
+  desc.shader =
+      format == VK_FORMAT_R32G32B32A32_SFLOAT
+          ? engine::Shader{s::kSkySliceFloat, sizeof s::kSkySliceFloat, "sky_slice.comp (rgba32f)"}
+          : engine::Shader{s::kSkySliceHalf, sizeof s::kSkySliceHalf, "sky_slice.comp (rgba16f)"};
+  desc.layout = layout_;
+  desc.constants = &packed;
+  desc.constantCount = 1;
+  return engine::createComputePipeline(device_, desc, &pipeline_);
+}
+
+bool SkySlice::inside(const Tables& tables, const SkyDraw& draw) {
+  return length(draw.camera.position_m) <= tables.parameters().topRadius_m;
+}
+
+Status SkySlice::record(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw) {
+  engine::Barriers barriers;
+  for (uint32_t i = 0; i < count_; ++i) barriers.discard(images_[i], engine::kComputeWrite);
+  Status status = barriers.record(device_, commands);
+  if (status != Status::Ok) return status;
+
+  const Camera& camera = draw.camera;
+  const double r = length(camera.position_m);
+  double muS = 0.0;
+  for (int i = 0; i < 3; ++i) muS += camera.position_m[i] / r * draw.sun.direction[i];
+  const double altitude = std::max(r - tables.parameters().bottomRadius_m, 0.0);
+  const SliceConstants constants = {static_cast<float>(altitude), static_cast<float>(muS)};
+  const engine::Dispatch& vk = device_.vk();
+  const VkDescriptorSet sets[] = {tables.descriptorSet(), set_};
+  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
+  vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout_, 0, 2, sets, 0,
+                           nullptr);
+  vk.CmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
+                      &constants);
+  vk.CmdDispatch(commands, (sizes_.scatteringNu + 7) / 8, (sizes_.scatteringMu + 7) / 8, 1);
+  ++device_.counters().dispatches;
+
+  for (uint32_t i = 0; i < count_; ++i) barriers.image(images_[i], engine::kFragmentSampled);
+  status = barriers.record(device_, commands);
+  if (status != Status::Ok) return status;
+  tablesId_ = tables.id();
+  std::copy_n(camera.position_m, 3, position_);
+  std::copy_n(draw.sun.direction, 3, sun_);
+  return Status::Ok;
+}
+
+bool SkySlice::serves(const Tables& tables, const SkyDraw& draw) const {
+  return tablesId_ == tables.id() && std::equal(position_, position_ + 3, draw.camera.position_m) &&
+         std::equal(sun_, sun_ + 3, draw.sun.direction);
+}
+
+Status SkySlice::assertReadable() const {
+  for (uint32_t i = 0; i < count_; ++i) {
+    const Status status =
+        engine::assertLayout(device_, images_[i], VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
+    if (status != Status::Ok) return status;
+  }
+  return Status::Ok;
+}
+
+}  // namespace alpenglow::sky

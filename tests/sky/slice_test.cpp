@@ -1,0 +1,127 @@
+// The sky slice: the same picture as from the tables, and never a stale one.
+#include <cmath>
+
+#include "tests/sky/sky_fixture.h"
+
+namespace alpenglow::testing {
+namespace {
+
+constexpr VkExtent2D kExtent = {48, 32};
+
+class SliceTest : public SkyTest {
+ protected:
+  SkyDraw drawAt(double altitude, double elevation, double pitch = 5.0) {
+    const Parameters earth = preset("earth");
+    const Camera camera = cameraFromGeodetic(earth, radians(20), radians(30), altitude, radians(80),
+                                             radians(pitch), 0.0, radians(70));
+    Vec sun;
+    sunDirection(radians(20), radians(30), radians(elevation), radians(100), sun.data());
+    SkyDraw draw = makeDraw(camera, sun, kExtent);
+    draw.sun.discRadius = radians(0.2667);
+    return draw;
+  }
+
+  View* sliceView(MieStorage mie = MieStorage::Full) {
+    ViewDesc desc;
+    desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+    desc.mie = mie;
+    desc.skySlice = tables("earth", mie);
+    return makeView(desc);
+  }
+
+  void slice(View* view, const Tables* tables, const SkyDraw& draw) {
+    run([&](VkCommandBuffer commands) {
+      return recordSkySlice(view, commands, device().frame(), tables, draw) == Status::Ok;
+    });
+  }
+
+  static void expectSame(const Picture& a, const Picture& b) {
+    ASSERT_EQ(a.data.size(), b.data.size());
+    for (size_t i = 0; i < a.data.size(); ++i)
+      ASSERT_NEAR(a.data[i], b.data[i], 2e-5 * std::abs(b.data[i]) + 1e-9) << i / 4;
+  }
+
+  uint64_t dispatches() {
+    ResourceReport report;
+    resourceReport(context(), &report);
+    return report.dispatches;
+  }
+};
+
+// Interpolation in r and mu_s before or after that in mu and nu: only float rounding differs.
+TEST_F(SliceTest, GivesThePictureOfTheTables) {
+  TargetDesc target;
+  target.extent = kExtent;
+  for (MieStorage mie : {MieStorage::Full, MieStorage::Packed}) {
+    Tables* with = tables("earth", mie);
+    ViewDesc plain;
+    plain.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+    plain.mie = mie;
+    View* direct = makeView(plain);
+    View* sliced = sliceView(mie);
+    for (double altitude : {0.0, 2.0, 9000.0, 59999.0, 60000.0}) {
+      for (double elevation : {50.0, 3.0, -4.0}) {
+        const SkyDraw draw = drawAt(altitude, elevation);
+        slice(sliced, with, draw);
+        expectSame(picture(sliced, with, draw, target), picture(direct, with, draw, target));
+      }
+    }
+  }
+}
+
+TEST_F(SliceTest, IsNotReadForAnotherCameraSunOrTables) {
+  TargetDesc target;
+  target.extent = kExtent;
+  Tables* earth = tables();
+  Tables* mars = tables("mars");
+  View* sliced = sliceView();
+  View* direct = view();
+  const SkyDraw draw = drawAt(2.0, 20.0);
+  slice(sliced, earth, draw);
+  for (const SkyDraw& other : {drawAt(3000.0, 20.0), drawAt(2.0, 5.0), drawAt(4e5, 20.0, -30.0)})
+    expectSame(picture(sliced, earth, other, target), picture(direct, earth, other, target));
+  expectSame(picture(sliced, mars, draw, target), picture(direct, mars, draw, target));
+  // A turned head looks into the same slice.
+  const SkyDraw turned = drawAt(2.0, 20.0, -40.0);
+  expectSame(picture(sliced, earth, turned, target), picture(direct, earth, turned, target));
+}
+
+TEST_F(SliceTest, IsOneDispatchInsideAndNoneOutside) {
+  View* sliced = sliceView();
+  uint64_t before = dispatches();
+  slice(sliced, tables(), drawAt(2.0, 20.0));
+  EXPECT_EQ(dispatches(), before + 1);
+  before = dispatches();
+  slice(sliced, tables(), drawAt(4e5, 20.0));
+  EXPECT_EQ(dispatches(), before);
+}
+
+TEST_F(SliceTest, RefusesViewsAndTablesThatDoNotFit) {
+  View* plain = view();
+  View* sliced = sliceView();
+  const SkyDraw draw = drawAt(2.0, 20.0);
+  TableDesc other = smallTables();
+  other.sizes.scatteringMu += 2;
+  Tables* odd = nullptr;
+  ASSERT_EQ(createTables(context(), preset("earth"), other, &odd), Status::Ok);
+  bakeAll(device(), odd);
+  run([&](VkCommandBuffer commands) {
+    const FrameInfo frame = device().frame();
+    EXPECT_EQ(recordSkySlice(plain, commands, frame, tables(), draw), Status::InvalidArgument);
+    EXPECT_NE(message().find("ViewDesc::skySlice"), std::string::npos) << message();
+    EXPECT_EQ(recordSkySlice(sliced, commands, frame, odd, draw), Status::InvalidArgument);
+    EXPECT_NE(message().find("mu and"), std::string::npos) << message();
+    return true;
+  });
+  destroyTables(odd, device().frame());
+  ViewDesc desc;
+  desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+  desc.mie = MieStorage::Packed;
+  desc.skySlice = tables();
+  View* made = nullptr;
+  EXPECT_EQ(createView(context(), desc, &made), Status::InvalidArgument);
+  EXPECT_EQ(made, nullptr);
+}
+
+}  // namespace
+}  // namespace alpenglow::testing
