@@ -91,45 +91,79 @@ Status chooseType(const Device& device, const Group& group, uint32_t typeBits,
                      group.name, properties, typeBits, device.properties().deviceName);
 }
 
-Status allocate(Device& device, const char* name, const VkMemoryRequirements& requirements,
-                uint32_t type, MemoryBlock* block) {
-  if (const MemoryHooks* hooks = device.memoryHooks()) {
-    const VkResult result = hooks->allocate(hooks->user, requirements, type, name, &block->range);
-    if (result < 0) {
-      block->range = MemoryRange{};
-      return device.fail(Status::OutOfDeviceMemory, result,
-                         "The host's memory hook refused %" PRIu64
-                         " bytes for block \"%s\": %s (%d).",
-                         requirements.size, name, resultName(result), result);
-    }
-    if (block->range.memory == VK_NULL_HANDLE ||
-        block->range.offset % requirements.alignment != 0) {
-      const VkDeviceSize offset = block->range.offset;
-      const bool null = block->range.memory == VK_NULL_HANDLE;
-      if (!null) hooks->free(hooks->user, block->range);
-      block->range = MemoryRange{};
-      return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                         "The host's memory hook answered %s memory at offset %" PRIu64
-                         " for block \"%s\", but memory at a multiple of %" PRIu64 " is expected.",
-                         null ? "no" : "some", offset, name, requirements.alignment);
-    }
-  } else {
-    auto info = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
-    info.allocationSize = requirements.size;
-    info.memoryTypeIndex = type;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    const VkResult result =
-        device.vk().AllocateMemory(device.handle(), &info, device.allocator(), &memory);
-    if (result < 0) {
-      return device.fail(statusOf(result), result,
-                         "vkAllocateMemory of %" PRIu64 " bytes for block \"%s\" returned %s (%d).",
-                         requirements.size, name, resultName(result), result);
-    }
-    block->range.memory = memory;
-    device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, handleNumber(memory), name);
+/// What the group needs of its block.
+struct Request {
+  const char* name;
+  VkMemoryRequirements requirements;
+  uint32_t type;
+  bool mustMap;
+};
+
+/// Gives the answer of the hook back and says what is wrong with it.
+Status refuseAnswer(Device& device, const MemoryHooks& hooks, const Request& request,
+                    MemoryBlock* block) {
+  const MemoryRange answer = block->range;
+  block->range = MemoryRange{};
+  const bool null = answer.memory == VK_NULL_HANDLE;
+  if (!null) hooks.free(hooks.user, answer);
+  if (null || answer.offset % request.requirements.alignment != 0) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "The host's memory hook answered %s memory at offset %" PRIu64
+                       " for block \"%s\", but memory at a multiple of %" PRIu64 " is expected.",
+                       null ? "no" : "some", answer.offset, request.name,
+                       request.requirements.alignment);
   }
-  block->size = requirements.size;
+  return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                     "The host's memory hook answered memory with a null mapped pointer for block "
+                     "\"%s\", but with mustMap it must keep the range mapped and set "
+                     "MemoryRange::mapped.",
+                     request.name);
+}
+
+Status allocateFromHook(Device& device, const MemoryHooks& hooks, const Request& request,
+                        MemoryBlock* block) {
+  MemoryRange& range = block->range;
+  const VkDeviceSize size = request.requirements.size;
+  const VkResult result = hooks.allocate(hooks.user, request.requirements, request.type,
+                                         request.mustMap, request.name, &range);
+  if (result < 0) {
+    range = MemoryRange{};
+    return device.fail(Status::OutOfDeviceMemory, result,
+                       "The host's memory hook refused %" PRIu64
+                       " bytes for block \"%s\": %s (%d).",
+                       size, request.name, resultName(result), result);
+  }
+  if (range.memory == VK_NULL_HANDLE || range.offset % request.requirements.alignment != 0 ||
+      (request.mustMap && range.mapped == nullptr)) {
+    return refuseAnswer(device, hooks, request, block);
+  }
+  if (request.mustMap) block->mapped = range.mapped;
+  block->size = size;
+  device.counters().addBytes(size);
+  return Status::Ok;
+}
+
+Status allocateFromVulkan(Device& device, const Request& request, MemoryBlock* block) {
+  auto info = structure<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
+  info.allocationSize = request.requirements.size;
+  info.memoryTypeIndex = request.type;
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  VkResult result = device.vk().AllocateMemory(device.handle(), &info, device.allocator(), &memory);
+  if (result < 0) {
+    return device.fail(statusOf(result), result,
+                       "vkAllocateMemory of %" PRIu64 " bytes for block \"%s\" returned %s (%d).",
+                       info.allocationSize, request.name, resultName(result), result);
+  }
+  block->range.memory = memory;
+  block->size = info.allocationSize;
   device.counters().addBytes(block->size);
+  device.setName(VK_OBJECT_TYPE_DEVICE_MEMORY, handleNumber(memory), request.name);
+  if (!request.mustMap) return Status::Ok;
+  result = device.vk().MapMemory(device.handle(), memory, 0, block->size, 0, &block->mapped);
+  if (result < 0) {
+    block->mapped = nullptr;
+    return device.failVk(result, "vkMapMemory", "block", request.name);
+  }
   return Status::Ok;
 }
 
@@ -165,16 +199,6 @@ Status bind(Device& device, const Group& group, const MemoryBlock& block) {
     return true;
   });
   return status;
-}
-
-Status map(Device& device, const char* name, MemoryBlock* block) {
-  const VkResult result = device.vk().MapMemory(
-      device.handle(), block->range.memory, block->range.offset, block->size, 0, &block->mapped);
-  if (result < 0) {
-    block->mapped = nullptr;
-    return device.failVk(result, "vkMapMemory", "block", name);
-  }
-  return Status::Ok;
 }
 
 VkImageViewType viewType(const ImageDesc& desc) {
@@ -216,12 +240,12 @@ Status fill(Device& device, const Group& group, VkMemoryPropertyFlags properties
   uint32_t type = kNoType;
   Status status = chooseType(device, group, requirements.memoryTypeBits, properties, &type);
   if (status != Status::Ok) return status;
-  status = allocate(device, group.name, requirements, type, block);
+  const bool mustMap = (properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0;
+  const Request request = {group.name, requirements, type, mustMap};
+  const MemoryHooks* hooks = device.memoryHooks();
+  status = hooks != nullptr ? allocateFromHook(device, *hooks, request, block)
+                            : allocateFromVulkan(device, request, block);
   if (status != Status::Ok) return status;
-  if ((properties & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
-    status = map(device, group.name, block);
-    if (status != Status::Ok) return status;
-  }
   status = bind(device, group, *block);
   for (uint32_t i = 0; i < group.imageCount && status == Status::Ok; ++i) {
     if (hasView(*group.images[i])) status = createView(device, group.images[i]);
@@ -259,10 +283,10 @@ Status allocateAndBind(Device& device, const char* name, VkMemoryPropertyFlags p
 
 void freeBlock(Device& device, MemoryBlock* block) {
   if (block->range.memory == VK_NULL_HANDLE) return;
-  if (block->mapped != nullptr) device.vk().UnmapMemory(device.handle(), block->range.memory);
   if (const MemoryHooks* hooks = device.memoryHooks()) {
     hooks->free(hooks->user, block->range);
   } else {
+    if (block->mapped != nullptr) device.vk().UnmapMemory(device.handle(), block->range.memory);
     device.vk().FreeMemory(device.handle(), block->range.memory, device.allocator());
   }
   device.counters().removeBytes(block->size);

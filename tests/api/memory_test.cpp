@@ -41,9 +41,9 @@ struct Hooks {
   MemoryHooks hooks() {
     MemoryHooks hooks;
     hooks.user = this;
-    hooks.allocate = [](void* user, const VkMemoryRequirements& needed, uint32_t type,
+    hooks.allocate = [](void* user, const VkMemoryRequirements& needed, uint32_t type, bool mustMap,
                         const char* name, MemoryRange* range) {
-      return static_cast<Hooks*>(user)->allocate(needed, type, name, range);
+      return static_cast<Hooks*>(user)->allocate(needed, type, mustMap, name, range);
     };
     hooks.free = [](void* user, const MemoryRange& range) {
       static_cast<Hooks*>(user)->release(range);
@@ -51,8 +51,8 @@ struct Hooks {
     return hooks;
   }
 
-  VkResult allocate(const VkMemoryRequirements& needed, uint32_t type, const char* name,
-                    MemoryRange* range) {
+  VkResult allocate(const VkMemoryRequirements& needed, uint32_t type, bool mustMap,
+                    const char* name, MemoryRange* range) {
     if (allocations++ == refuseAt) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
     EXPECT_NE(needed.memoryTypeBits >> type & 1u, 0u);
     names.insert(name);
@@ -63,8 +63,13 @@ struct Hooks {
     range->offset = 3 * needed.alignment;
     const VkResult result = reinterpret_cast<PFN_vkAllocateMemory>(
         device->function("vkAllocateMemory"))(device->device(), &info, nullptr, &range->memory);
-    if (result == VK_SUCCESS) alive[range->memory] = range->offset;
-    return result;
+    if (result != VK_SUCCESS) return result;
+    alive[range->memory] = range->offset;
+    // Freeing the memory unmaps it.
+    return mustMap
+               ? reinterpret_cast<PFN_vkMapMemory>(device->function("vkMapMemory"))(
+                     device->device(), range->memory, range->offset, needed.size, 0, &range->mapped)
+               : VK_SUCCESS;
   }
 
   void release(const MemoryRange& range) {
@@ -126,6 +131,105 @@ TEST_F(SkyTest, RefusingHooksLeaveNothing) {
     EXPECT_TRUE(host.alive.empty()) << n;
   }
   destroyContext(made);
+}
+
+/// A host's allocator that serves every mapped range from one VkDeviceMemory, which it maps once.
+struct Pool {
+  static constexpr VkDeviceSize kBytes = 1 << 16;
+  Hooks dedicated;  ///< For the rest.
+  VkDeviceMemory memory = VK_NULL_HANDLE;
+  uint32_t type = 0;
+  char* mapped = nullptr;
+  VkDeviceSize end = 0;
+  std::map<VkDeviceSize, void*> alive;  ///< By offset.
+  size_t mostAlive = 0;
+
+  template <class Function>
+  Function function(const char* name) {
+    return reinterpret_cast<Function>(dedicated.device->function(name));
+  }
+
+  MemoryHooks hooks() {
+    MemoryHooks hooks;
+    hooks.user = this;
+    hooks.allocate = [](void* user, const VkMemoryRequirements& needed, uint32_t index,
+                        bool mustMap, const char* name, MemoryRange* range) {
+      Pool& self = *static_cast<Pool*>(user);
+      if (!mustMap) return self.dedicated.allocate(needed, index, mustMap, name, range);
+      return self.allocate(needed, index, range);
+    };
+    hooks.free = [](void* user, const MemoryRange& range) {
+      Pool& self = *static_cast<Pool*>(user);
+      if (range.memory != self.memory) return self.dedicated.release(range);
+      const auto found = self.alive.find(range.offset);
+      ASSERT_NE(found, self.alive.end());
+      EXPECT_EQ(found->second, range.mapped);
+      self.alive.erase(found);
+    };
+    return hooks;
+  }
+
+  VkResult allocate(const VkMemoryRequirements& needed, uint32_t index, MemoryRange* range) {
+    if (memory == VK_NULL_HANDLE) {
+      VkMemoryAllocateInfo info = {};
+      info.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
+      info.allocationSize = kBytes;
+      info.memoryTypeIndex = type = index;
+      VkDevice device = dedicated.device->device();
+      VkResult result =
+          function<PFN_vkAllocateMemory>("vkAllocateMemory")(device, &info, nullptr, &memory);
+      if (result != VK_SUCCESS) return result;
+      void* first = nullptr;
+      result = function<PFN_vkMapMemory>("vkMapMemory")(device, memory, 0, kBytes, 0, &first);
+      if (result != VK_SUCCESS) return result;
+      mapped = static_cast<char*>(first);
+    }
+    const VkDeviceSize offset = (end + needed.alignment - 1) / needed.alignment * needed.alignment;
+    if (index != type || offset + needed.size > kBytes) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    end = offset + needed.size;
+    *range = {memory, offset, mapped + offset};
+    alive[offset] = range->mapped;
+    mostAlive = std::max(mostAlive, alive.size());
+    return VK_SUCCESS;
+  }
+
+  void destroy() {
+    VkDevice device = dedicated.device->device();
+    function<PFN_vkUnmapMemory>("vkUnmapMemory")(device, memory);
+    function<PFN_vkFreeMemory>("vkFreeMemory")(device, memory, nullptr);
+  }
+};
+
+// Were one range mapped or unmapped by us, the validation layer would name it: the fixture fails.
+TEST_F(SkyTest, MappedRangesShareOneMemory) {
+  Pool pool;
+  pool.dedicated.device = &device();
+  const MemoryHooks hooks = pool.hooks();
+  ContextDesc desc = contextDesc();
+  desc.memory = &hooks;
+  Context* made = nullptr;
+  ASSERT_EQ(createContext(desc, &made), Status::Ok);
+  Tables* first = nullptr;
+  Tables* second = nullptr;
+  ASSERT_EQ(createTables(made, preset("mars"), smallTables(), &first), Status::Ok)
+      << lastDiagnostic();
+  ASSERT_EQ(createTables(made, preset("earth"), smallTables(), &second), Status::Ok)
+      << lastDiagnostic();
+  EXPECT_EQ(pool.alive.size(), 2u);
+  destroyTables(first, FrameInfo{});
+  EXPECT_EQ(pool.alive.size(), 1u);
+  // The second range and those to come are still mapped.
+  bakeAll(device(), second);
+  ProbeQuery query;
+  query.viewZenith = 1.0;
+  EXPECT_EQ(probe(device(), made, second, {query}).at(0).skyRadiance[1],
+            probeAll({query}).at(0).skyRadiance[1]);
+  EXPECT_EQ(pool.mostAlive, 2u);
+  destroyTables(second, FrameInfo{});
+  destroyContext(made);
+  EXPECT_TRUE(pool.alive.empty());
+  EXPECT_TRUE(pool.dedicated.alive.empty());
+  pool.destroy();
 }
 
 /// Callbacks that keep a size before each block and count.

@@ -403,7 +403,7 @@ TEST_F(GpuTest, HostMemoryHookServesImages) {
   } pool{device()};
   MemoryHooks hooks;
   hooks.user = &pool;
-  hooks.allocate = [](void* user, const VkMemoryRequirements& requirements, uint32_t type,
+  hooks.allocate = [](void* user, const VkMemoryRequirements& requirements, uint32_t type, bool,
                       const char*, MemoryRange* range) {
     Pool& self = *static_cast<Pool*>(user);
     const auto allocate =

@@ -17,9 +17,10 @@ constexpr VkMemoryPropertyFlags kHost =
 struct Hooks {
   MemoryHooks hooks;
   VkResult result = VK_SUCCESS;
-  MemoryRange answer = {handleFrom<VkDeviceMemory>(5000), 4096};
+  MemoryRange answer = {handleFrom<VkDeviceMemory>(5000), 4096, nullptr};
   VkMemoryRequirements asked = {};
   uint32_t type = 99;
+  bool mustMap = false;
   std::string name;
   int allocated = 0;
   int freed = 0;
@@ -27,10 +28,11 @@ struct Hooks {
   Hooks() {
     hooks.user = this;
     hooks.allocate = [](void* user, const VkMemoryRequirements& requirements, uint32_t typeIndex,
-                        const char* blockName, MemoryRange* range) {
+                        bool mapIt, const char* blockName, MemoryRange* range) {
       auto* self = static_cast<Hooks*>(user);
       self->asked = requirements;
       self->type = typeIndex;
+      self->mustMap = mapIt;
       self->name = blockName;
       if (self->result == VK_SUCCESS) {
         ++self->allocated;
@@ -187,6 +189,43 @@ TEST_F(MemoryTest, HostVisibleBlockIsMappedForEachBuffer) {
   EXPECT_EQ(buffers_[1].mapped, mock_.mapped.data() + 112);
   freeBlock(*device_, &block_);
   EXPECT_EQ(mock_.count("vkUnmapMemory"), 1);
+}
+
+TEST_F(MemoryTest, HookMapsTheHostVisibleBlock) {
+  std::byte bytes[256];
+  hooks_.answer.mapped = bytes;
+  make(0, 2, &hooks_.hooks);
+  ASSERT_EQ(bind(kHost), Status::Ok) << mock_.lastDiagnostic();
+  EXPECT_TRUE(hooks_.mustMap);
+  EXPECT_EQ(hooks_.type, 1u);
+  EXPECT_EQ(buffers_[0].mapped, bytes);
+  EXPECT_EQ(buffers_[1].mapped, bytes + 112);
+  freeBlock(*device_, &block_);
+  EXPECT_EQ(hooks_.freed, 1);
+  EXPECT_EQ(mock_.count("vkMapMemory"), 0);
+  EXPECT_EQ(mock_.count("vkUnmapMemory"), 0);
+}
+
+TEST_F(MemoryTest, HookThatDoesNotMapIsRefused) {
+  make(0, 2, &hooks_.hooks);
+  EXPECT_EQ(bind(kHost), Status::InvalidArgument);
+  EXPECT_EQ(mock_.lastDiagnostic(),
+            "The host's memory hook answered memory with a null mapped pointer for block "
+            "\"block\", but with mustMap it must keep the range mapped and set "
+            "MemoryRange::mapped.");
+  EXPECT_EQ(hooks_.freed, 1);
+  EXPECT_EQ(mock_.count("vkMapMemory"), 0);
+  EXPECT_EQ(buffers_[0].mapped, nullptr);
+  EXPECT_EQ(device_->counters().bytes, 0u);
+}
+
+TEST_F(MemoryTest, MappingThatNobodyAskedForIsIgnored) {
+  std::byte bytes[256];
+  hooks_.answer.mapped = bytes;
+  make(0, 1, &hooks_.hooks);
+  ASSERT_EQ(bind(kLocal), Status::Ok);
+  EXPECT_FALSE(hooks_.mustMap);
+  EXPECT_EQ(buffers_[0].mapped, nullptr);
 }
 
 TEST_F(MemoryTest, DeviceLocalIsDoneWithoutWhereThereIsNone) {

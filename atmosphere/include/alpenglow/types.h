@@ -58,17 +58,23 @@ struct ImageState {
 struct MemoryRange {
   VkDeviceMemory memory = VK_NULL_HANDLE;
   VkDeviceSize offset = 0;
+  void* mapped = nullptr;  ///< The range's first byte (the one at `offset`) where it is mapped.
 };
 
 /// Optional: lets a host's allocator (VMA, its own) serve our few memory blocks. Both functions
-/// must be thread-safe. Memory asked for with VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT is mapped by us,
-/// whole, so it must not be mapped by the host.
+/// must be thread-safe. Ranges may share a VkDeviceMemory: we never map or unmap memory of a hook.
+/// They may hold images, so bufferImageGranularity lies between them and buffers of the host.
 struct MemoryHooks {
   void* user = nullptr;
   /// Fills `range` with memory of type `memoryTypeIndex`, at least `requirements.size` bytes, at a
-  /// multiple of `requirements.alignment`. `name` says what it is for.
+  /// multiple of `requirements.alignment`. With `mustMap` the type is host-visible and coherent,
+  /// and the host sets `range->mapped` and keeps the range mapped until it is freed; a null
+  /// `mapped` is then InvalidArgument. Without `mustMap`, `mapped` is ignored. `name` says what it
+  /// is for.
   VkResult (*allocate)(void* user, const VkMemoryRequirements& requirements,
-                       uint32_t memoryTypeIndex, const char* name, MemoryRange* range) = nullptr;
+                       uint32_t memoryTypeIndex, bool mustMap, const char* name,
+                       MemoryRange* range) = nullptr;
+  /// Takes back `range` as `allocate` filled it, also one that was refused for what it holds.
   void (*free)(void* user, const MemoryRange& range) = nullptr;
 };
 
