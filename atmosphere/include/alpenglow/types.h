@@ -63,7 +63,8 @@ struct MemoryRange {
 
 /// Optional: lets a host's allocator (VMA, its own) serve our few memory blocks. Both functions
 /// must be thread-safe. Ranges may share a VkDeviceMemory: we never map or unmap memory of a hook.
-/// They may hold images, so bufferImageGranularity lies between them and buffers of the host.
+/// A range may hold images: a host that sub-allocates keeps bufferImageGranularity between it and
+/// ranges with buffers (those asked for with `mustMap` hold nothing else).
 struct MemoryHooks {
   void* user = nullptr;
   /// Fills `range` with memory of type `memoryTypeIndex`, at least `requirements.size` bytes, at a
