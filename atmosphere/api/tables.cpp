@@ -15,6 +15,17 @@ Status nullArgument(const Tables* tables, const char* call) {
                                            "%s got a null argument, but needs all of them.", call);
 }
 
+// What a call defers to its frame would be freed while it is recorded, if that had completed.
+Status checkFrame(const Tables& tables, const FrameInfo& frame, const char* call) {
+  if (frame.submitting > frame.completed) return Status::Ok;
+  return tables.resources().device().fail(Status::InvalidArgument, VK_SUCCESS,
+                                          "%s got the frame {submitting %llu, completed %llu}, but "
+                                          "the frame being recorded must be above "
+                                          "the last completed one; count from 1.",
+                                          call, static_cast<unsigned long long>(frame.submitting),
+                                          static_cast<unsigned long long>(frame.completed));
+}
+
 }  // namespace
 
 TableSizes defaultTableSizes() { return {256, 64, 64, 16, 32, 128, 32, 8}; }
@@ -38,6 +49,8 @@ void destroyTables(Tables* tables, const FrameInfo& frame) { Tables::destroy(tab
 Status recordBake(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame, uint64_t budget,
                   BakeProgress* progress) {
   if (tables == nullptr || commands == VK_NULL_HANDLE) return nullArgument(tables, "recordBake");
+  const Status status = checkFrame(*tables, frame, "recordBake");
+  if (status != Status::Ok) return status;
   return tables->recordBake(commands, frame, budget, progress);
 }
 
@@ -57,6 +70,8 @@ Status recordTableUpload(Tables* tables, VkCommandBuffer commands, const FrameIn
                          TableId id, VkBuffer buffer, VkDeviceSize offset) {
   if (tables == nullptr || commands == VK_NULL_HANDLE)
     return nullArgument(tables, "recordTableUpload");
+  const Status status = checkFrame(*tables, frame, "recordTableUpload");
+  if (status != Status::Ok) return status;
   return tables->recordUpload(commands, frame, id, buffer, offset);
 }
 
@@ -75,7 +90,8 @@ Status recordProbe(Context* context, const Tables* tables, VkCommandBuffer comma
                    VkBuffer buffer) {
   if (context == nullptr || tables == nullptr || commands == VK_NULL_HANDLE)
     return nullArgument(tables, "recordProbe");
-  const Status status = requireCapability(*context, kCapabilityBake, "recordProbe");
+  Status status = requireCapability(*context, kCapabilityBake, "recordProbe");
+  if (status == Status::Ok) status = checkFrame(*tables, frame, "recordProbe");
   if (status != Status::Ok) return status;
   return context->probe->record(*tables, commands, frame, queries, count, buffer);
 }

@@ -15,7 +15,9 @@ M makeMedium(const Parameters& p) {
     return v;
   };
   M m{};
-  m.rayleighScaleHeight = m.mieScaleHeight = m.absorptionHalfWidth = Real(1);
+  // What is absent must not be the smaller scale height, by which segments are split.
+  m.rayleighScaleHeight = m.mieScaleHeight = static_cast<Real>(p.topRadius_m - p.bottomRadius_m);
+  m.absorptionHalfWidth = Real(1);
   if (p.rayleigh.present) {
     m.rayleighScattering = spectrum(p.rayleigh.scattering_per_m);
     m.rayleighScaleHeight = static_cast<Real>(p.rayleigh.scaleHeight_m);

@@ -94,9 +94,51 @@ class AccuracyTest : public BakeTest {
                 band.name, 100.0 * percentile(errors, 0.5), 100.0 * percentile(errors, 0.95),
                 100.0 * percentile(errors, 1.0), 100.0 * percentile(transmittance, 1.0));
     EXPECT_LT(percentile(errors, 0.95), band.boundP95) << band.name;
-    EXPECT_LT(percentile(transmittance, 1.0), 0.005) << band.name;
+    EXPECT_LT(percentile(transmittance, 1.0), 0.001) << band.name;
   }
 };
+
+// Segments: S|x - T S|xs (equation 13) cancels where they are short. A known weakness of the
+// baseline; its bounds hold what was measured.
+TEST_F(AccuracyTest, SegmentsByLength) {
+  const Parameters p = preset("earth");
+  TableDesc desc;
+  desc.orders = 1;
+  Tables* tables = bakeTables(p, desc);
+  ASSERT_FALSE(HasFailure());
+  const struct {
+    double distance, boundMedian, boundP95;
+  } cases[] = {{100.0, 0.01, 0.14}, {1e3, 0.03, 0.095}, {1e4, 0.01, 0.08}, {5e4, 0.007, 0.07}};
+  for (const auto& c : cases) {
+    std::vector<double> errors, transmittance;
+    for (double elevation : {60.0, 20.0, 4.0}) {
+      const Spectrum e = referenceIrradiance(p, (90.0 - elevation) * kDegree);
+      std::vector<ProbeQuery> queries = bandQueries(elevation);
+      for (ProbeQuery& query : queries) query.distance_m = c.distance;
+      const std::vector<ProbeAnswer> answers = probe(tables, queries);
+      for (size_t i = 0; i < queries.size(); ++i) {
+        ReferenceAnswer truth;
+        ASSERT_EQ(referenceSingleScattering(p, queries[i], &truth), Status::Ok);
+        double worst = 0.0;
+        for (uint32_t k = 0; k < kSpectrumSize; ++k) {
+          const double expected = truth.value.skyRadiance[k];
+          const double floor = std::max(0.02 * e[k] / std::numbers::pi, 1e-9);
+          worst = std::max(
+              worst, std::abs(answers[i].skyRadiance[k] - expected) / std::max(expected, floor));
+          const double t = truth.value.transmittance[k];
+          transmittance.push_back(std::abs(answers[i].transmittance[k] - t) / std::max(t, 0.001));
+        }
+        errors.push_back(worst);
+      }
+    }
+    std::printf("%7.0f m  sky p50 %6.2f %%  p95 %6.2f %%  max %7.2f %%   T max %.4f %%\n",
+                c.distance, 100.0 * percentile(errors, 0.5), 100.0 * percentile(errors, 0.95),
+                100.0 * percentile(errors, 1.0), 100.0 * percentile(transmittance, 1.0));
+    EXPECT_LT(percentile(errors, 0.5), c.boundMedian) << c.distance;
+    EXPECT_LT(percentile(errors, 0.95), c.boundP95) << c.distance;
+    EXPECT_LT(percentile(transmittance, 1.0), 0.001) << c.distance;
+  }
+}
 
 TEST_F(AccuracyTest, SingleScatteringByBand) {
   const Parameters p = preset("earth");

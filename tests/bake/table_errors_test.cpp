@@ -97,6 +97,20 @@ TEST_F(TableErrorsTest, OrderTablesAreReadOnlyBetweenOrders) {
   EXPECT_EQ(status(TableId::Scattering), Status::Ok);
 }
 
+TEST_F(TableErrorsTest, AFrameThatHasCompletedIsRefused) {
+  TableDesc desc;
+  desc.sizes = kSmallSizes;
+  Tables* tables = makeTables(preset("earth"), desc);
+  run([&](VkCommandBuffer commands) {
+    BakeProgress progress;
+    EXPECT_EQ(recordBake(tables, commands, FrameInfo{}, 0, &progress), Status::InvalidArgument);
+    EXPECT_EQ(recordBake(tables, commands, FrameInfo{7, 7}, 0, &progress), Status::InvalidArgument);
+    EXPECT_NE(lastDiagnostic().find("submitting 7, completed 7"), std::string::npos)
+        << lastDiagnostic();
+    return true;
+  });
+}
+
 TEST_F(TableErrorsTest, WrongQueriesAreRefusedByIndexAndField) {
   TableDesc desc;
   desc.sizes = kSmallSizes;

@@ -34,9 +34,18 @@ ALPENGLOW_FN Real absorptionDensity(IN(Medium) m, Real h) {
   return max(REAL(0.0), REAL(1.0) - abs(h - m.absorptionCenter) / m.absorptionHalfWidth);
 }
 
+// Extinction of what thins out exponentially, and of the tent, 1/m. They are apart because they are
+// smooth in different stretches of a ray.
+ALPENGLOW_FN Spectrum exponentialExtinction(IN(Medium) m, Real h) {
+  return m.rayleighScattering * rayleighDensity(m, h) + m.mieExtinction * mieDensity(m, h);
+}
+
+ALPENGLOW_FN Spectrum tentExtinction(IN(Medium) m, Real h) {
+  return m.absorptionExtinction * absorptionDensity(m, h);
+}
+
 // Extinction coefficient of everything at h, 1/m. The one place that knows the profiles: optical
 // depths integrate it along rays (optical_depth.glsl).
 ALPENGLOW_FN Spectrum extinction(IN(Medium) m, Real h) {
-  return m.rayleighScattering * rayleighDensity(m, h) + m.mieExtinction * mieDensity(m, h) +
-         m.absorptionExtinction * absorptionDensity(m, h);
+  return exponentialExtinction(m, h) + tentExtinction(m, h);
 }

@@ -116,7 +116,7 @@ ALPENGLOW_FN Real sphereTheta(int i) {
 
 // J reads dS at r and mu_s of its own texel and at kSphereTheta zenith angles: all on nodes but nu. So
 // dS is first interpolated to those angles, into a small 2D table with x = nu + nus * i and
-// y = mu_s + muSs * r (texels), and J reads that: the same sums, of a quarter of the fetches' time.
+// y = mu_s + muSs * r (texels), and J reads that: the same sums, in a third of the time.
 ALPENGLOW_FN Real2 incidentCoordinate(IN(TableShape) shape, Real muSTexel, Real rTexel, int i,
                                       Real nu) {
   Real x = Real(i) + insetCoordinate(scatteringUnitNu(nu), shape.scatteringNu);

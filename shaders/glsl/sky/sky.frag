@@ -72,8 +72,8 @@ Spectrum groundAlbedo(Ray ray, vec3 view, float muGround) {
 // The ground's own light, dimmed on its way to the camera: T R[L], equations 10 and 14.
 Spectrum groundTerm(Ray ray, vec3 view) {
   float d = ray.hitsGround ? ray.extent : 0.0;
-  Spectrum depth = opticalDepthOfPiece(alpenglowMedium, ray.h, ray.mu, 0.0, d,
-                                       ray.hitsGround ? 12 : 0);
+  Spectrum depth =
+      opticalDepthToGround(alpenglowMedium, ray.h, ray.mu, d, ray.hitsGround ? 12 : 0);
   float muGround = -muAt(alpenglowMedium, ray.h, ray.mu, d, 0.0);
   float muSGround = muSAt(alpenglowMedium, ray.h, ray.muS, ray.nu, d, 0.0);
   Spectrum albedo = groundAlbedo(ray, view, muGround);
