@@ -1,6 +1,7 @@
 #include <alpenglow/io/file.h>
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <array>
@@ -40,6 +41,11 @@ bool writeAll(int fd, const void* data, size_t size) {
   while (size > 0) {
     const ssize_t n = ::write(fd, next, size);
     if (n < 0 && errno == EINTR) continue;
+    if (n < 0 && errno == EAGAIN) {  // An inherited pipe may not block.
+      pollfd ready = {fd, POLLOUT, 0};
+      ::poll(&ready, 1, -1);
+      continue;
+    }
     if (n <= 0) return false;
     next += n;
     size -= static_cast<size_t>(n);
@@ -47,14 +53,15 @@ bool writeAll(int fd, const void* data, size_t size) {
   return true;
 }
 
-// What stands at a path, links followed.
-enum class Kind { Nothing, Regular, Folder, Other };
+// What stands at a path, links followed. Failed: it can't even be told, see errno.
+enum class Kind { Nothing, Regular, Folder, Pipe, Other, Failed };
 
 Kind kindOf(const std::string& path, mode_t* mode) {
   struct stat info = {};
-  if (::stat(path.c_str(), &info) != 0) return Kind::Nothing;
+  if (::stat(path.c_str(), &info) != 0) return errno == ENOENT ? Kind::Nothing : Kind::Failed;
   *mode = info.st_mode & 07777;
   if (S_ISREG(info.st_mode)) return Kind::Regular;
+  if (S_ISFIFO(info.st_mode)) return Kind::Pipe;
   return S_ISDIR(info.st_mode) ? Kind::Folder : Kind::Other;
 }
 
@@ -79,17 +86,75 @@ std::string folderOf(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
+// The number in "/dev/fd/N", whatever the folder is called, as long as it lists this process's
+// descriptors; else -1.
+int descriptorOf(const std::string& path) {
+  const std::string name = fs::path(path).filename().string();
+  const bool number = !name.empty() && name.size() <= 9 &&
+                      name.find_first_not_of("0123456789") == std::string::npos;
+  if (!number) return -1;
+  std::error_code code;
+  const fs::path all = fs::canonical("/proc/self/fd", code);
+  if (code || fs::canonical(folderOf(path), code) != all) return -1;
+  return std::stoi(name);
+}
+
 // Where the bytes will really go: behind symbolic links, even one that points to nothing yet.
-std::string resolve(const std::string& path) {
-  std::string current = path;
+struct Place {
+  std::string path;
+  // What /dev/stdout and /dev/fd/N stand for. The file behind one belongs to whoever opened it: it
+  // goes on at its offset, and must not be replaced or opened anew.
+  int descriptor = -1;
+};
+
+Place resolve(const std::string& path) {
+  Place place = {path, -1};
   for (int links = 0; links < 40; ++links) {
+    std::string& current = place.path;
+    place.descriptor = descriptorOf(current);
     std::error_code code;
-    if (!fs::is_symlink(fs::symlink_status(current, code))) return current;
+    if (place.descriptor >= 0 || !fs::is_symlink(fs::symlink_status(current, code))) return place;
     const fs::path next = fs::read_symlink(current, code);
-    if (code) return current;
+    if (code) return place;
     current = next.is_absolute() ? next.string() : (fs::path(folderOf(current)) / next).string();
   }
-  return current;
+  return place;
+}
+
+// A write of nothing, which a full device refuses and others ignore; a socket might send it on.
+bool acceptsBytes(int fd) {
+  struct stat info = {};
+  return ::fstat(fd, &info) == 0 && (!S_ISCHR(info.st_mode) || ::write(fd, "", 0) == 0);
+}
+
+Done checkDescriptor(const std::string& path, int fd) {
+  const int flags = ::fcntl(fd, F_GETFL);
+  if (flags < 0) return cannot("write", path, errno);
+  if ((flags & O_ACCMODE) == O_RDONLY) return cannot("write", path, EBADF);
+  return acceptsBytes(fd) ? Done{} : cannot("write", path, errno);
+}
+
+// Of what is neither a file nor a pipe, which would wait for a reader here.
+Done checkDevice(const std::string& path) {
+  const Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  if (file.get() < 0 || !acceptsBytes(file.get())) return cannot("write", path, errno);
+  return {};
+}
+
+// Makes a file beside the target, under a name of its own. Negative on failure, see errno.
+int openBeside(const std::string& target, std::string* name) {
+  const std::string folder = folderOf(target);
+  *name = folder + "/." + fs::path(target).filename().string();
+  *name = name->substr(0, 200 + folder.size()) + ".part.XXXXXX";
+  return ::mkostemp(name->data(), O_CLOEXEC);
+}
+
+// Permissions alone don't tell: root has them all, and yet can't make a file in /proc.
+Done checkFolder(const std::string& path, const std::string& target) {
+  std::string name;
+  const Descriptor file(openBeside(target, &name));
+  if (file.get() < 0 || ::unlink(name.c_str()) != 0) return cannot("write", path, errno);
+  return {};
 }
 
 }  // namespace
@@ -124,24 +189,40 @@ Result<std::string> readFile(const std::string& path, uint64_t limit) {
 
 Done checkOutput(const std::string& path) {
   if (path.empty()) return {"The output's name is empty; a path was expected."};
-  const std::string target = resolve(path);
+  const Place place = resolve(path);
+  if (place.descriptor >= 0) return checkDescriptor(path, place.descriptor);
   mode_t mode = 0;
-  const Kind kind = kindOf(target, &mode);
+  const Kind kind = kindOf(place.path, &mode);
+  if (kind == Kind::Failed) return cannot("write", path, errno);
   if (kind == Kind::Folder) return {"Cannot write '" + path + "': it is a folder."};
-  if (kind != Kind::Nothing && ::access(target.c_str(), W_OK) != 0) {
+  if (kind == Kind::Nothing && place.path.back() == '/') return cannot("write", path, EISDIR);
+  if (kind != Kind::Nothing && ::access(place.path.c_str(), W_OK) != 0) {
     return cannot("write", path, errno);
   }
-  const std::string folder = folderOf(target);
-  if (kind != Kind::Other && ::access(folder.c_str(), W_OK | X_OK) != 0) {
-    return cannot("write", path, errno);
+  if (kind == Kind::Pipe) return {};
+  return kind == Kind::Other ? checkDevice(path) : checkFolder(path, place.path);
+}
+
+Done checkReplaceable(const std::string& path) {
+  const Place place = resolve(path);
+  mode_t mode = 0;
+  const Kind kind = kindOf(place.path, &mode);
+  if (place.descriptor >= 0 || kind == Kind::Pipe || kind == Kind::Other) {
+    return {"Cannot write '" + path +
+            "': it is a device, a pipe or an open descriptor, but a file is needed."};
   }
-  if (kind == Kind::Nothing && target.back() == '/') return cannot("write", path, EISDIR);
-  return {};
+  return checkOutput(path);
 }
 
 Done writeFile(const std::string& path, const void* data, size_t size) {
+  const Place place = resolve(path);
+  if (place.descriptor >= 0) {
+    const bool written = writeAll(place.descriptor, data, size);
+    return written ? Done{} : cannot("write", path, errno);
+  }
   mode_t mode = 0;
-  if (kindOf(path, &mode) == Kind::Other) return writeDirectly(path, data, size);
+  const Kind kind = kindOf(place.path, &mode);
+  if (kind == Kind::Pipe || kind == Kind::Other) return writeDirectly(path, data, size);
   Result<PendingFile> pending = PendingFile::create(path);
   if (!pending) return {pending.error};
   Descriptor file(::open(pending->path().c_str(), O_WRONLY | O_CLOEXEC));
@@ -153,18 +234,14 @@ Done writeFile(const std::string& path, const void* data, size_t size) {
 
 Result<PendingFile> PendingFile::create(const std::string& target) {
   const auto failed = [](Done done) { return Result<PendingFile>::failure(std::move(done.error)); };
-  if (Done done = checkOutput(target); !done) return failed(std::move(done));
+  if (Done done = checkReplaceable(target); !done) return failed(std::move(done));
   PendingFile pending;
   pending.shown_ = target;
-  pending.target_ = resolve(target);
+  pending.target_ = resolve(target).path;
   mode_t mode = defaultMode();
-  if (kindOf(pending.target_, &mode) == Kind::Other) {
-    return failed({"Cannot write '" + target + "': it is neither a file nor free."});
-  }
-  std::string name =
-      folderOf(pending.target_) + "/." + fs::path(pending.target_).filename().string();
-  name = name.substr(0, 200 + folderOf(pending.target_).size()) + ".part.XXXXXX";
-  const Descriptor file(::mkostemp(name.data(), O_CLOEXEC));
+  kindOf(pending.target_, &mode);  // An old file's mode stays.
+  std::string name;
+  const Descriptor file(openBeside(pending.target_, &name));
   if (file.get() < 0) return failed(cannot("write", target, errno));
   pending.path_ = name;
   ::fchmod(file.get(), mode);

@@ -69,16 +69,18 @@ void parsePictureSize(const std::string& text, uint32_t* width, uint32_t* height
   *height = isWholeNumber(sides[1]) ? static_cast<uint32_t>(std::stoul(sides[1])) : 0;
 }
 
-const char* TableArguments::firstShapeOption() const {
+const char* TableArguments::firstTableOption() const {
   if (solver) return "--solver";
   if (sizeTransmittance) return "--size-transmittance";
   if (sizeIrradiance) return "--size-irradiance";
   if (sizeScattering) return "--size-scattering";
   if (format) return "--format";
-  return mie ? "--mie" : nullptr;
+  if (mie) return "--mie";
+  return keepOrders ? "--keep-orders" : nullptr;
 }
 
-void addTableOptions(CLI::App* command, TableArguments* arguments) {
+void addTableOptions(CLI::App* command, const std::string& keepOrdersHelp,
+                     TableArguments* arguments) {
   const auto add = [&](const char* name, std::optional<std::string>* target, const char* type,
                        const char* help, Check check) {
     command->add_option(name, *target, help)
@@ -102,6 +104,7 @@ void addTableOptions(CLI::App* command, TableArguments* arguments) {
   add("--mie", &arguments->mie, "full|packed",
       "Single Mie scattering in three channels or in one (default full)",
       oneOf({"full", "packed"}));
+  command->add_flag("--keep-orders", arguments->keepOrders, keepOrdersHelp)->group("Tables");
 }
 
 void addTableFileOption(CLI::App* command, TableArguments* arguments) {

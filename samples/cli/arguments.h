@@ -19,11 +19,11 @@ struct TableArguments {
   std::optional<std::string> sizeScattering;
   std::optional<std::string> format;
   std::optional<std::string> mie;
-  std::string tables;       ///< Of render and probe: a table file to load.
-  bool keepOrders = false;  ///< Of bake.
+  std::string tables;  ///< Of render and probe: a table file to load.
+  bool keepOrders = false;
 
-  /// The name of the first option about the shape of tables that was given, for sentences.
-  const char* firstShapeOption() const;
+  /// The name of the first option about what tables hold that was given, for sentences.
+  const char* firstTableOption() const;
 };
 
 /// Where the work runs and what is written about it.
@@ -54,7 +54,9 @@ struct ProbeArguments {
   RunArguments run;
 };
 
-void addTableOptions(CLI::App* command, TableArguments* arguments);
+/// `keepOrdersHelp` says what becomes of the orders that --keep-orders keeps.
+void addTableOptions(CLI::App* command, const std::string& keepOrdersHelp,
+                     TableArguments* arguments);
 void addTableFileOption(CLI::App* command, TableArguments* arguments);
 void addRunOptions(CLI::App* command, const std::string& outputHelp, RunArguments* arguments);
 void addSizeOption(CLI::App* command, std::string* size);

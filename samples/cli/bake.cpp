@@ -1,14 +1,19 @@
+#include <alpenglow/io/file.h>
+
 #include "commands.h"
 #include "failure.h"
+#include "outputs.h"
 #include "tables.h"
 
 namespace alpenglow::cli {
 
 void runBake(const BakeArguments& arguments) {
+  checkEnding(arguments.run.output, {".exr"});
   const io::AtmosphereSource source = take(io::findAtmosphereOrScene(arguments.atmosphere));
   io::TableFile file;
   file.parameters = source.parameters;
   file.desc = describeTables(arguments.tables, source.scene ? &*source.scene : nullptr);
+  check(io::checkReplaceable(arguments.run.output));  // A table file is sealed after writing.
   checkOutputs(arguments.run);
   Session session(arguments.run.device, kCapabilityBake);
   std::vector<io::TablePart> orders;

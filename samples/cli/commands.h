@@ -11,7 +11,4 @@ void runBake(const BakeArguments& arguments);
 void runRender(const RenderArguments& arguments);
 void runProbe(const ProbeArguments& arguments);
 
-/// Checks, before any work, that the output and the report can be written and differ.
-void checkOutputs(const RunArguments& arguments);
-
 }  // namespace alpenglow::cli

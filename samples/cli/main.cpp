@@ -1,11 +1,9 @@
 // alpenglow: bakes atmospheres, renders scenes and answers point queries. See docs/.
-#include <alpenglow/io/file.h>
 #include <alpenglow/version.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <iostream>
 #include <sstream>
 
@@ -13,20 +11,6 @@
 #include "failure.h"
 
 namespace alpenglow::cli {
-
-void checkOutputs(const RunArguments& arguments) {
-  check(io::checkOutput(arguments.output));
-  if (arguments.report.empty()) return;
-  check(io::checkOutput(arguments.report));
-  std::error_code code;
-  const std::filesystem::path output = std::filesystem::absolute(arguments.output, code);
-  const std::filesystem::path report = std::filesystem::absolute(arguments.report, code);
-  if (output.lexically_normal() == report.lexically_normal() &&
-      !std::filesystem::is_character_file(output, code)) {
-    throw Failure("-o and --report both name '" + arguments.report + "'.", Failure::kUsage);
-  }
-}
-
 namespace {
 
 struct Arguments {
@@ -37,6 +21,8 @@ struct Arguments {
 };
 
 constexpr const char* kAtmosphereHelp = "A preset's name, an atmosphere file or a scene file";
+constexpr const char* kKeepOrdersHelp =
+    "Keep the tables of each scattering order while baking, as bake does; none is written";
 
 void addPresets(CLI::App* app, Arguments* arguments) {
   CLI::App* command = app->add_subcommand("presets", "List the atmospheres, or print one as JSON");
@@ -49,11 +35,7 @@ void addBake(CLI::App* app, Arguments* arguments) {
   CLI::App* command = app->add_subcommand("bake", "Bake the tables of an atmosphere and save them");
   command->add_option("ATMOSPHERE", bake->atmosphere, kAtmosphereHelp)->required();
   addRunOptions(command, "The table file to write, an EXR", &bake->run);
-  addTableOptions(command, &bake->tables);
-  command
-      ->add_flag("--keep-orders", bake->tables.keepOrders,
-                 "Save the tables of each scattering order too")
-      ->group("Tables");
+  addTableOptions(command, "Save the tables of each scattering order too", &bake->tables);
   command->callback([bake] { runBake(*bake); });
 }
 
@@ -66,7 +48,7 @@ void addRender(CLI::App* app, Arguments* arguments) {
                 "mapped picture",
                 &render->run);
   addSizeOption(command, &render->size);
-  addTableOptions(command, &render->tables);
+  addTableOptions(command, kKeepOrdersHelp, &render->tables);
   addTableFileOption(command, &render->tables);
   command->callback([render] { runRender(*render); });
 }
@@ -80,7 +62,7 @@ void addProbe(CLI::App* app, Arguments* arguments) {
       ->type_name("Q.json");
   addRunOptions(command, "The answers to write, as JSON", &probe->run);
   addMethodOption(command, &probe->method);
-  addTableOptions(command, &probe->tables);
+  addTableOptions(command, kKeepOrdersHelp, &probe->tables);
   addTableFileOption(command, &probe->tables);
   command->callback([probe] { runProbe(*probe); });
 }

@@ -5,8 +5,6 @@
 namespace alpenglow::cli {
 namespace {
 
-constexpr VkFormat kColorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-
 struct ViewDeleter {
   Session* session = nullptr;
   void operator()(View* view) const { destroyView(view, session->device().frame()); }
@@ -145,15 +143,13 @@ void recordPicture(Session* session, VkCommandBuffer commands, const headless::I
   transition(session, commands, target, kDrawn, kCopied);
 }
 
-io::LinearImage readPicture(Session* session, const headless::Image& target) {
-  const VkExtent2D size = target.extent();
+io::LinearImage readPicture(Session* session, const PictureTarget& target) {
+  const VkExtent2D size = target.image.extent();
   const size_t pixels = size_t{size.width} * size.height;
-  const headless::HostBuffer buffer =
-      session->hostBuffer(pixels * 4 * sizeof(float), VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   session->run([&](VkCommandBuffer commands) {
     const VkBufferImageCopy copy = wholeLevel(0, 0, size.width, size.height);
     session->function<PFN_vkCmdCopyImageToBuffer>("vkCmdCopyImageToBuffer")(
-        commands, target.image(), kCopied.layout, buffer.buffer(), 1, &copy);
+        commands, target.image.image(), kCopied.layout, target.readback.buffer(), 1, &copy);
     VkMemoryBarrier2 toHost = {};
     toHost.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
     toHost.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
@@ -168,7 +164,7 @@ io::LinearImage readPicture(Session* session, const headless::Image& target) {
     return "readback";
   });
   io::LinearImage image{size.width, size.height, std::vector<float>(pixels * 3)};
-  const float* rgba = static_cast<const float*>(buffer.data());
+  const float* rgba = static_cast<const float*>(target.readback.data());
   for (size_t i = 0; i < pixels; ++i) {
     std::memcpy(&image.pixels[i * 3], rgba + i * 4, 3 * sizeof(float));
   }
@@ -178,11 +174,11 @@ io::LinearImage readPicture(Session* session, const headless::Image& target) {
 }  // namespace
 
 io::LinearImage drawScene(Session* session, const io::Scene& scene, const io::AlbedoMap* albedo,
-                          const Tables* tables, MieStorage mie) {
+                          const Tables* tables, MieStorage mie, const PictureTarget& target) {
   const Sampler sampler(session);
   headless::Image albedoImage;
   ViewDesc desc;
-  desc.colorFormat = kColorFormat;
+  desc.colorFormat = kPictureFormat;
   desc.projection = scene.camera.projection;
   desc.mie = mie;
   desc.skySlice = tables;
@@ -194,11 +190,8 @@ io::LinearImage drawScene(Session* session, const io::Scene& scene, const io::Al
   View* made = nullptr;
   session->check(createView(session->context(), desc, &made));
   const ViewPointer view(made, ViewDeleter{session});
-  const headless::Image target =
-      session->image({scene.width, scene.height}, kColorFormat,
-                     VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 1);
   session->run([&](VkCommandBuffer commands) {
-    recordPicture(session, commands, target, view.get(), tables, describeDraw(scene));
+    recordPicture(session, commands, target.image, view.get(), tables, describeDraw(scene));
     return "sky";
   });
   return readPicture(session, target);

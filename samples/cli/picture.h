@@ -4,13 +4,13 @@
 #include <alpenglow/io/image_file.h>
 #include <alpenglow/io/scene_file.h>
 
-#include "session.h"
+#include "picture_target.h"
 
 namespace alpenglow::cli {
 
-/// Draws at the scene's size: linear radiance for the atmosphere's solar irradiance. `albedo` may
-/// be null. Throws a Failure.
+/// Draws into `target`, which has the scene's size: linear radiance for the atmosphere's solar
+/// irradiance. `albedo` may be null. Throws a Failure.
 io::LinearImage drawScene(Session* session, const io::Scene& scene, const io::AlbedoMap* albedo,
-                          const Tables* tables, MieStorage mie);
+                          const Tables* tables, MieStorage mie, const PictureTarget& target);
 
 }  // namespace alpenglow::cli

@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "failure.h"
+#include "outputs.h"
 #include "progress.h"
 #include "tables.h"
 
@@ -52,7 +53,7 @@ void checkReferenceArguments(const TableArguments& tables, const io::Scene* scen
   if (!tables.tables.empty()) {
     throw Failure("--tables was given, but --method reference uses no tables.", Failure::kUsage);
   }
-  if (const char* option = tables.firstShapeOption()) {
+  if (const char* option = tables.firstTableOption()) {
     throw Failure(std::string(option) + " was given, but --method reference uses no tables.",
                   Failure::kUsage);
   }

@@ -3,6 +3,7 @@
 
 #include "commands.h"
 #include "failure.h"
+#include "outputs.h"
 #include "picture.h"
 #include "sample_scenes.h"
 #include "tables.h"
@@ -10,12 +11,8 @@
 namespace alpenglow::cli {
 namespace {
 
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() > end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 void writePicture(const std::string& path, const io::Scene& scene, const io::LinearImage& image) {
-  if (endsWith(path, ".exr")) {
+  if (hasEnding(path, ".exr")) {
     check(io::writeExr(path, image));
     return;
   }
@@ -27,10 +24,7 @@ void writePicture(const std::string& path, const io::Scene& scene, const io::Lin
 
 void runRender(const RenderArguments& arguments) {
   const std::string& output = arguments.run.output;
-  if (!endsWith(output, ".exr") && !endsWith(output, ".png")) {
-    throw Failure("The output '" + output + "' has another ending than .exr or .png.",
-                  Failure::kUsage);
-  }
+  checkEnding(output, {".exr", ".png"});
   io::Scene scene = take(io::readScene(findScene(arguments.scene)));
   if (!arguments.size.empty()) parsePictureSize(arguments.size, &scene.width, &scene.height);
   std::optional<io::AlbedoMap> albedo;
@@ -41,9 +35,10 @@ void runRender(const RenderArguments& arguments) {
   // Loaded tables need nothing of a bake.
   const CapabilityFlags bake = request.file ? CapabilityFlags{0} : kCapabilityBake;
   Session session(arguments.run.device, bake | kCapabilitySky);
+  const PictureTarget target = createPictureTarget(&session, scene.width, scene.height);
   const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
-  const io::LinearImage image =
-      drawScene(&session, scene, albedo ? &*albedo : nullptr, ready.tables.get(), ready.desc.mie);
+  const io::LinearImage image = drawScene(&session, scene, albedo ? &*albedo : nullptr,
+                                          ready.tables.get(), ready.desc.mie, target);
   writePicture(output, scene, image);
   if (!arguments.run.report.empty()) {
     writeText(arguments.run.report, io::formatReport(session.report()));

@@ -123,6 +123,12 @@ io::Report Session::report() {
   return report;
 }
 
+PFN_vkVoidFunction Session::requireInstanceFunction(const char* name) {
+  const PFN_vkVoidFunction found = device_->getInstanceProcAddr()(device_->instance(), name);
+  if (found == nullptr) throw Failure(std::string("The driver lacks ") + name + ".");
+  return found;
+}
+
 PFN_vkVoidFunction Session::requireFunction(const char* name) {
   const PFN_vkVoidFunction found = device_->function(name);
   if (found == nullptr) throw Failure(std::string("The driver lacks ") + name + ".");

@@ -39,11 +39,18 @@ class Session {
     return reinterpret_cast<Function>(requireFunction(name));
   }
 
+  /// As function, for those that take the instance or the physical device.
+  template <typename Function>
+  Function instanceFunction(const char* name) {
+    return reinterpret_cast<Function>(requireInstanceFunction(name));
+  }
+
   /// What was done until now.
   io::Report report();
 
  private:
   PFN_vkVoidFunction requireFunction(const char* name);
+  PFN_vkVoidFunction requireInstanceFunction(const char* name);
   void book(const std::string& pass, const ResourceReport& before, const headless::Timing& timing);
 
   std::unique_ptr<headless::Device> device_;

@@ -30,7 +30,7 @@ TEST_F(Program, HelpNamesWhatExistsAndNothingElse) {
     const std::string help = runProgram({command, "--help"}).out;
     for (const char* option :
          {"--output", "--solver", "--orders", "--size-transmittance", "--size-irradiance",
-          "--size-scattering", "--format", "--mie", "--device", "--report"}) {
+          "--size-scattering", "--format", "--mie", "--keep-orders", "--device", "--report"}) {
       EXPECT_NE(help.find(option), std::string::npos) << command << " " << option;
     }
     for (const char* later : {"--quality", "--walk", "moments"}) {

@@ -142,6 +142,28 @@ TEST_F(Program, UnwritableOutputs) {
   expectRefused(bakeOf("earth", folder_ / "t.exr", {"--report", folder_ / "t.exr"}), {"both"});
 }
 
+TEST_F(Program, BadOutputsAreRefusedBeforeTheBake) {
+  const auto refused = [&](const std::string& output, const std::vector<std::string>& words,
+                           const std::vector<std::string>& more = {}) {
+    expectRefused(joined(joined({"bake", "earth", "-o", output}, endlessTables()), more), words);
+  };
+  for (const char* other : {"t.png", "t", "t.EXR"}) refused(folder_ / other, {other, ".exr"});
+  for (const char* device : {"null", "full", "stdout"}) {
+    refused(std::string("/dev/") + device, {device});
+    const std::string link = folder_ / (std::string(device) + ".exr");
+    std::filesystem::create_symlink(std::string("/dev/") + device, link);
+    refused(link, {link, "a file is needed"});
+  }
+  std::filesystem::create_directory(folder_ / "folder.exr");
+  refused(folder_ / "folder.exr", {"folder.exr", "folder"});
+  refused("/proc/t.exr", {"/proc/t.exr"});
+  refused(folder_ / "no/such/t.exr", {"t.exr"});
+  for (const std::string& report : {std::string("/dev/full"), std::string("/proc/r.json"),
+                                    folder_.path(), folder_ / "no/such/r.json"}) {
+    refused(folder_ / "t.exr", {report}, {"--report", report});
+  }
+}
+
 TEST_F(Program, AnOldFileIsReplacedWholeOrKept) {
   folder_.write("t.exr", "old");
   expectRefused(bakeOf("pluto", folder_ / "t.exr"), {"'pluto'"});

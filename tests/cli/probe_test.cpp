@@ -154,6 +154,8 @@ TEST_F(Probe, TheReferenceRefusesWhatItHasNot) {
                 {"--tables"});
   expectRefused(probeOf({"--method", "reference", "--orders", "1", "--format", "half"}),
                 {"--format"});
+  expectRefused(probeOf({"--method", "reference", "--orders", "1", "--keep-orders"}),
+                {"--keep-orders"});
 }
 
 TEST_F(Probe, BadQueriesFailTheFile) {
@@ -172,6 +174,41 @@ TEST_F(Probe, BadQueriesFailTheFile) {
   refused(R"({"kind": "irradiance", "altitude_m": 1, "sun_zenith_deg": 9})", {"id", "missing"});
   expectRefused({"probe", "earth", "--queries", folder_ / "none.json", "-o", folder_ / "a.json"},
                 {"none.json"});
+}
+
+TEST_F(Probe, KeepsOrdersWhileBaking) {
+  expectGood(probeOf(joined(smallTables(), {"--report", folder_ / "a-report.json"})));
+  const std::string plain = contentsOf(folder_ / "a.json");
+  expectGood(
+      probeOf(joined(smallTables(), {"--keep-orders", "--report", folder_ / "b-report.json"})));
+  EXPECT_EQ(contentsOf(folder_ / "a.json"), plain);
+  EXPECT_GT(jsonOf("b-report.json")["totals"]["bytes"], jsonOf("a-report.json")["totals"]["bytes"]);
+  expectGood(joined({"bake", "earth", "-o", folder_ / "t.exr"}, smallTables()));
+  expectGood(probeOf({"--keep-orders", "--tables", folder_ / "t.exr"}));
+  EXPECT_EQ(contentsOf(folder_ / "a.json"), plain);
+}
+
+TEST_F(Probe, BadOutputsAreRefusedBeforeTheBake) {
+  for (const std::string& output : {std::string("/dev/full"), std::string("/proc/a.json"),
+                                    folder_.path(), folder_ / "no/such/a.json"}) {
+    expectRefused(joined({"probe", "earth", "--queries", queries_, "-o", output}, endlessTables()),
+                  {output});
+    expectRefused(probeOf(joined(endlessTables(), {"--report", output})), {output});
+  }
+}
+
+// Neither replaced nor written over: lines before and after stay.
+TEST_F(Probe, TheStandardOutputGoesOnWhereItIs) {
+  const std::string probe = std::string(ALPENGLOW_PROGRAM) + " probe earth --queries " + queries_ +
+                            " --method reference --orders 1 -o ";
+  const std::string log = folder_ / "log";
+  const std::string lines = "(echo before; " + probe + "/dev/stdout; echo after) > " + log;
+  ASSERT_EQ(std::system(lines.c_str()), 0);
+  ASSERT_EQ(std::system((probe + (folder_ / "a.json")).c_str()), 0);
+  EXPECT_EQ(contentsOf(log), "before\n" + contentsOf(folder_ / "a.json") + "after\n");
+  const std::string piped = probe + "/dev/stdout | cat > " + log;
+  ASSERT_EQ(std::system(piped.c_str()), 0);
+  EXPECT_EQ(contentsOf(log), contentsOf(folder_ / "a.json"));
 }
 
 TEST_F(Probe, AnAnswerFileMayBeADevice) {

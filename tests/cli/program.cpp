@@ -73,6 +73,11 @@ const std::vector<std::string>& smallTables() {
   return kOptions;
 }
 
+const std::vector<std::string>& endlessTables() {
+  static const std::vector<std::string> kOptions = {"--orders", "1000"};
+  return kOptions;
+}
+
 std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;

@@ -29,6 +29,8 @@ std::vector<std::string> validated(bool advice);
 
 /// Options that make bakes take a fraction of a second.
 const std::vector<std::string>& smallTables();
+/// Options that make them take hours: what is refused with these is refused before the bake.
+const std::vector<std::string>& endlessTables();
 std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b);
 
 /// A folder and the program, for a test.

@@ -149,6 +149,28 @@ TEST_F(Render, UnwritableOutputs) {
   expectRefused(renderOf(scene(), "no/such/a.png"), {"a.png"});
   std::filesystem::create_directory(folder_ / "folder.png");
   expectRefused(renderOf(scene(), "folder.png"), {"folder.png", "folder"});
+  std::filesystem::create_symlink("/dev/full", folder_ / "full.png");
+  for (const std::string& output : {folder_ / "full.png", std::string("/proc/a.png")}) {
+    expectRefused(joined({"render", scene(), "-o", output}, endlessTables()), {output});
+  }
+}
+
+TEST_F(Render, APictureThatDoesNotFitIsRefusedBeforeTheBake) {
+  const std::vector<std::string> huge = joined(
+      {"render", scene(), "-o", folder_ / "a.png", "--size", "16384x16384"}, endlessTables());
+  expectRefused(huge, {"16384x16384", "4294967296 bytes"});
+}
+
+// Orders that are kept cost memory and change nothing.
+TEST_F(Render, KeepsOrdersWhileBaking) {
+  expectGood(renderOf(scene(), "a.exr", {"--report", folder_ / "a.json"}));
+  expectGood(renderOf(scene(), "b.exr", {"--keep-orders", "--report", folder_ / "b.json"}));
+  EXPECT_EQ(picture("a.exr").pixels, picture("b.exr").pixels);
+  EXPECT_GT(jsonOf("b.json")["totals"]["bytes"], jsonOf("a.json")["totals"]["bytes"]);
+  expectGood(joined({"bake", "earth", "-o", folder_ / "t.exr"}, smallTables()));
+  expectGood(
+      {"render", scene(), "-o", folder_ / "b.exr", "--keep-orders", "--tables", folder_ / "t.exr"});
+  EXPECT_EQ(picture("a.exr").pixels, picture("b.exr").pixels);
 }
 
 }  // namespace

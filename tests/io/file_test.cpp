@@ -70,9 +70,68 @@ TEST(WholeFile, AFullDeviceIsReported) {
   const Done done = writeText("/dev/full", "x");
   expectSentence(done.error);
   EXPECT_NE(done.error.find("No space left"), std::string::npos) << done.error;
+  EXPECT_NE(checkOutput("/dev/full").error.find("No space left"), std::string::npos);
+  EXPECT_TRUE(checkOutput("/dev/null"));
   EXPECT_TRUE(writeText("/dev/null", "x"));
   EXPECT_FALSE(PendingFile::create("/dev/full"));
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
+}
+
+// What was written before and what comes after by the same descriptor must stay.
+TEST(WholeFile, AnOpenDescriptorGoesOnAtItsPlace) {
+  TemporaryFolder folder;
+  const int fd = ::open((folder / "log").c_str(), O_WRONLY | O_CREAT, 0600);
+  ASSERT_GE(fd, 0);
+  const std::string name = "/dev/fd/" + std::to_string(fd);
+  ASSERT_EQ(::symlink(name.c_str(), (folder / "link").c_str()), 0);
+  ASSERT_EQ(::write(fd, "before ", 7), 7);
+  EXPECT_TRUE(checkOutput(name));
+  EXPECT_TRUE(writeText(name, "one "));
+  EXPECT_TRUE(writeText("/proc/self/fd/" + std::to_string(fd), "two "));
+  EXPECT_TRUE(writeText(folder / "link", "three "));
+  ASSERT_EQ(::write(fd, "after", 5), 5);
+  EXPECT_EQ(contentsOf(folder / "log"), "before one two three after");
+  expectSentence(checkReplaceable(name).error);
+  EXPECT_FALSE(PendingFile::create(name));
+  EXPECT_EQ(folder.names().size(), 2u);
+  ::close(fd);
+  expectSentence(checkOutput(name).error);
+  expectSentence(writeText(name, "x").error);
+}
+
+TEST(WholeFile, ADescriptorForReadingIsRefused) {
+  TemporaryFolder folder;
+  const int fd = ::open(folder.write("in", "kept").c_str(), O_RDONLY);
+  ASSERT_GE(fd, 0);
+  expectSentence(checkOutput("/dev/fd/" + std::to_string(fd)).error);
+  expectSentence(writeText("/dev/fd/" + std::to_string(fd), "x").error);
+  ::close(fd);
+  EXPECT_EQ(contentsOf(folder / "in"), "kept");
+}
+
+TEST(WholeFile, WhatOnlyTryingTellsIsToldEarly) {
+  TemporaryFolder folder;
+  folder.write("file", "x");
+  for (const std::string& path :
+       {std::string("/proc/new"), folder / "file/new", folder / std::string(300, 'x')}) {
+    expectSentence(checkOutput(path).error);
+  }
+  ASSERT_EQ(::symlink("loop", (folder / "loop").c_str()), 0);
+  expectSentence(checkOutput(folder / "loop").error);
+  EXPECT_EQ(folder.names().size(), 2u);
+}
+
+TEST(WholeFile, OnlyFilesAreReplaceable) {
+  TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_TRUE(checkOutput(folder / "pipe"));
+  for (const std::string& path :
+       {std::string("/dev/null"), std::string("/dev/full"), std::string("/dev/stdout"),
+        folder / "pipe", folder.path(), folder / "no/such/file", std::string()}) {
+    expectSentence(checkReplaceable(path).error);
+  }
+  EXPECT_TRUE(checkReplaceable(folder / "fine"));
+  EXPECT_EQ(folder.names().size(), 1u);
 }
 
 TEST(WholeFile, APendingFileThatIsDroppedLeavesNothing) {

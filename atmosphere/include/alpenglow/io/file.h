@@ -14,12 +14,18 @@ Result<std::string> readFile(const std::string& path, uint64_t limit);
 
 /// Writes `size` bytes. A regular file (or a new one) is written beside its place and renamed, so
 /// readers see the old or the new bytes, never a part; a symbolic link is followed. A device or a
-/// pipe is written directly.
+/// pipe is written directly, and /dev/stdout, /dev/stderr and /dev/fd/N through the descriptor that
+/// is open already, at its place in whatever it belongs to.
 Done writeFile(const std::string& path, const void* data, size_t size);
 
 /// Says early, before hours of work, that writeFile could not write there: the folder is missing or
-/// read-only, or `path` is a folder. Writes nothing.
+/// read-only, `path` is a folder, or the device is full. Makes a file beside a regular one and
+/// removes it again.
 Done checkOutput(const std::string& path);
+
+/// As checkOutput, for what a PendingFile is to replace: refuses devices, pipes and open
+/// descriptors too.
+Done checkReplaceable(const std::string& path);
 
 /// A temporary file beside the regular file that it will replace. Removed by the destructor unless
 /// committed. For writers that need a path of their own.
