@@ -127,10 +127,28 @@ TYPED_TEST(OpticalDepth, SegmentsFollowTheScaleHeightInAnyShell) {
         const double expected = exact.value[static_cast<size_t>(i)];
         EXPECT_NEAR(opticalDepthOfSegment(m, h, mu, length)[i], expected, 1e-3 * expected)
             << shell.thickness << " " << view.h << " " << view.mu;
-        if (rayHitsGround(m, h, mu)) {
-          EXPECT_NEAR(opticalDepthToGround(m, h, mu, length, 12)[i], expected, 0.02 * expected)
-              << shell.thickness << " " << view.h << " " << view.mu;
-        }
+      }
+    }
+  }
+}
+
+TYPED_TEST(OpticalDepth, OneRuleServesThePixelsOfTheGround) {
+  using Real = typename TypeParam::Real;
+  const Parameters p = preset("earth");
+  const auto m = TypeParam::medium(p);
+  const auto exactMedium = makeMediumF64(p);
+  for (double h : {2.0, 1e3, 1e4, 6e4}) {
+    const double horizon = horizonMu(exactMedium, h);
+    for (double below : {1e-4, 1e-3, 1e-2, 0.1, 0.3, 1.0}) {
+      const Real mu = static_cast<Real>(horizon - (1.0 + horizon) * below);
+      const Real length = distanceToGround(m, static_cast<Real>(h), mu);
+      const auto exact = reference::opticalDepth(
+          exactMedium, {h, static_cast<double>(mu), static_cast<double>(length)}, {1e-12, 0.0});
+      for (int i = 0; i < 3; ++i) {
+        const double expected = std::exp(-exact.value[static_cast<size_t>(i)]);
+        const double t =
+            std::exp(-opticalDepthToGround(m, static_cast<Real>(h), mu, length, true)[i]);
+        EXPECT_NEAR(t, expected, 1e-3 * std::max(expected, 0.01)) << h << " " << mu;
       }
     }
   }

@@ -37,20 +37,31 @@ ALPENGLOW_FN Real2 gaussLegendre12(int i) {
   return Real2(i < 6 ? x : REAL(1.0) - x, w);
 }
 
-// Optical depth of the exponentials, and of the tent, between distances t0 and t1 of a ray.
-ALPENGLOW_FN Spectrum exponentialDepth(IN(Medium) m, Real h, Real mu, Real t0, Real t1) {
+// The same of the 4-point rule.
+ALPENGLOW_FN Real2 gaussLegendre4(int i) {
+  bool outer = i == 0 || i == 3;
+  Real x = outer ? REAL(0.0694318442029737124) : REAL(0.3300094782075718676);
+  Real w = outer ? REAL(0.1739274225687269287) : REAL(0.3260725774312730713);
+  return Real2(i < 2 ? x : REAL(1.0) - x, w);
+}
+
+// Optical depth of the exponentials (12 points), and of the tent between its bends (4 points: there it is
+// nearly a polynomial), between distances t0 and t1 of a ray. `points` may be 0 for none: a loop that
+// does not run is the only code that costs nothing where branches are never skipped.
+ALPENGLOW_FN Spectrum exponentialDepth(IN(Medium) m, Real h, Real mu, Real t0, Real t1,
+                                       int points) {
   Spectrum sum = SPECTRUM(REAL(0.0));
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < points; ++i) {
     Real2 node = gaussLegendre12(i);
     sum += node[1] * exponentialExtinction(m, altitudeAt(m, h, mu, t0 + node[0] * (t1 - t0)));
   }
   return sum * abs(t1 - t0);
 }
 
-ALPENGLOW_FN Spectrum tentDepth(IN(Medium) m, Real h, Real mu, Real t0, Real t1) {
+ALPENGLOW_FN Spectrum tentDepth(IN(Medium) m, Real h, Real mu, Real t0, Real t1, int points) {
   Spectrum sum = SPECTRUM(REAL(0.0));
-  for (int i = 0; i < 12; ++i) {
-    Real2 node = gaussLegendre12(i);
+  for (int i = 0; i < points; ++i) {
+    Real2 node = gaussLegendre4(i);
     sum += node[1] * tentExtinction(m, altitudeAt(m, h, mu, t0 + node[0] * (t1 - t0)));
   }
   return sum * abs(t1 - t0);
@@ -63,9 +74,23 @@ ALPENGLOW_FN Real distanceToGain(IN(Medium) m, Real h, Real mu, Real gain) {
   return gain2 / max(rMu + sqrt(rMu * rMu + gain2), REAL(1e-6));
 }
 
-// Optical depth of one side of a ray's lowest point: from there `reach` metres on (direction 1) or back
-// (-1), rising all the way. Split where the ray has gained 3 and 12 of the smaller scale height and 12
-// of the larger, so that the nodes are where the air is, however high the shell; and at the tent's bends.
+// Optical depth of the tent on one side of a ray's lowest point, which lies at distance `lowest` and altitude
+// `low`: from there `reach` metres on (direction 1) or back (-1), rising with zenith cosine `rise`.
+ALPENGLOW_FN Spectrum tentDepthOfSide(IN(Medium) m, Real h, Real mu, Real lowest, Real low, Real rise,
+                                      Real direction, Real reach, int points) {
+  Real foot = max(m.absorptionCenter - m.absorptionHalfWidth - low, REAL(0.0));
+  Real top = max(m.absorptionCenter - low, REAL(0.0));
+  Real end = max(m.absorptionCenter + m.absorptionHalfWidth - low, REAL(0.0));
+  Real b1 = min(distanceToGain(m, low, rise, foot), reach) * direction;
+  Real b2 = min(distanceToGain(m, low, rise, top), reach) * direction;
+  Real b3 = min(distanceToGain(m, low, rise, end), reach) * direction;
+  return tentDepth(m, h, mu, lowest + b1, lowest + b2, points) +
+         tentDepth(m, h, mu, lowest + b2, lowest + b3, points);
+}
+
+// Optical depth of everything on one side of a ray's lowest point, as above. Split where the ray has
+// gained 3 and 12 of the smaller scale height and 12 of the larger, so that the nodes are where the air
+// is, however high the shell; and at the tent's bends.
 ALPENGLOW_FN Spectrum opticalDepthOfSide(IN(Medium) m, Real h, Real mu, Real lowest, Real direction,
                                          Real reach) {
   Real low = altitudeAt(m, h, mu, lowest);
@@ -75,18 +100,11 @@ ALPENGLOW_FN Spectrum opticalDepthOfSide(IN(Medium) m, Real h, Real mu, Real low
   Real s1 = min(distanceToGain(m, low, rise, REAL(3.0) * least), reach) * direction;
   Real s2 = min(distanceToGain(m, low, rise, REAL(12.0) * least), reach) * direction;
   Real s3 = min(distanceToGain(m, low, rise, REAL(12.0) * most), reach) * direction;
-  Real foot = max(m.absorptionCenter - m.absorptionHalfWidth - low, REAL(0.0));
-  Real top = max(m.absorptionCenter - low, REAL(0.0));
-  Real end = max(m.absorptionCenter + m.absorptionHalfWidth - low, REAL(0.0));
-  Real b1 = min(distanceToGain(m, low, rise, foot), reach) * direction;
-  Real b2 = min(distanceToGain(m, low, rise, top), reach) * direction;
-  Real b3 = min(distanceToGain(m, low, rise, end), reach) * direction;
-  return exponentialDepth(m, h, mu, lowest, lowest + s1) +
-         exponentialDepth(m, h, mu, lowest + s1, lowest + s2) +
-         exponentialDepth(m, h, mu, lowest + s2, lowest + s3) +
-         exponentialDepth(m, h, mu, lowest + s3, lowest + reach * direction) +
-         tentDepth(m, h, mu, lowest + b1, lowest + b2) +
-         tentDepth(m, h, mu, lowest + b2, lowest + b3);
+  return exponentialDepth(m, h, mu, lowest, lowest + s1, 12) +
+         exponentialDepth(m, h, mu, lowest + s1, lowest + s2, 12) +
+         exponentialDepth(m, h, mu, lowest + s2, lowest + s3, 12) +
+         exponentialDepth(m, h, mu, lowest + s3, lowest + reach * direction, 12) +
+         tentDepthOfSide(m, h, mu, lowest, low, rise, direction, reach, 4);
 }
 
 // Optical depth of the first d metres of a ray, both sides of its lowest point. Integrated, not taken as
@@ -98,15 +116,10 @@ ALPENGLOW_FN Spectrum opticalDepthOfSegment(IN(Medium) m, Real h, Real mu, Real 
          opticalDepthOfSide(m, h, mu, lowest, REAL(1.0), d - lowest);
 }
 
-// Optical depth of a ray that hits the ground, for a pixel: one rule, its nodes crowded towards the
-// ground by t = d (1 - x^2). `points` is 12, or 0 for none: a loop that does not run is the only code that
-// costs nothing where branches are never skipped.
-ALPENGLOW_FN Spectrum opticalDepthToGround(IN(Medium) m, Real h, Real mu, Real d, int points) {
-  Spectrum sum = SPECTRUM(REAL(0.0));
-  for (int i = 0; i < points; ++i) {
-    Real2 node = gaussLegendre12(i);
-    Real t = d * (REAL(1.0) - node[0] * node[0]);
-    sum += node[1] * node[0] * extinction(m, altitudeAt(m, h, mu, t));
-  }
-  return REAL(2.0) * d * sum;
+// Optical depth of a ray that hits the ground at distance d, for a pixel: one rule for the exponentials,
+// enough for a shell of some 50 scale heights. Nothing, at no cost, unless `any`.
+ALPENGLOW_FN Spectrum opticalDepthToGround(IN(Medium) m, Real h, Real mu, Real d, bool any_) {
+  Real rise = -muAt(m, h, mu, d, REAL(0.0));
+  return exponentialDepth(m, h, mu, REAL(0.0), d, any_ ? 12 : 0) +
+         tentDepthOfSide(m, h, mu, d, REAL(0.0), rise, REAL(-1.0), d, any_ ? 4 : 0);
 }

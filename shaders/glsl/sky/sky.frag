@@ -73,7 +73,7 @@ Spectrum groundAlbedo(Ray ray, vec3 view, float muGround) {
 Spectrum groundTerm(Ray ray, vec3 view) {
   float d = ray.hitsGround ? ray.extent : 0.0;
   Spectrum depth =
-      opticalDepthToGround(alpenglowMedium, ray.h, ray.mu, d, ray.hitsGround ? 12 : 0);
+      opticalDepthToGround(alpenglowMedium, ray.h, ray.mu, d, ray.hitsGround);
   float muGround = -muAt(alpenglowMedium, ray.h, ray.mu, d, 0.0);
   float muSGround = muSAt(alpenglowMedium, ray.h, ray.muS, ray.nu, d, 0.0);
   Spectrum albedo = groundAlbedo(ray, view, muGround);
