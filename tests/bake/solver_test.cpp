@@ -183,7 +183,7 @@ TEST_F(SolverTest, EveryTableIsWhatTheTextSaysInDouble) {
   checkNextOrder("3", scattering3, irradiance3);
 }
 
-// The sums E and S are the orders' sums, and --orders N means what DESIGN says of events.
+// The sums E and S are the orders' sums, and --orders N counts events as docs say.
 TEST_F(SolverTest, TheSumsAreTheSumsOfTheOrders) {
   TableDesc desc;
   desc.orders = 3;
