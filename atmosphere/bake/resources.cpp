@@ -74,6 +74,19 @@ constexpr VkDescriptorSetLayoutBinding kOutputLayoutBindings[kMaxOutputs] = {
 
 }  // namespace
 
+VkFormat vulkanFormat(TableFormat format) {
+  return format == TableFormat::Half ? VK_FORMAT_R16G16B16A16_SFLOAT
+                                     : VK_FORMAT_R32G32B32A32_SFLOAT;
+}
+
+TableFormat finestFormat(const engine::Device& device, TableFormat otherwise) {
+  const VkFormatFeatureFlags needed = VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
+                                      VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT |
+                                      VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
+  const VkFormatProperties properties = device.formatProperties(vulkanFormat(TableFormat::Float));
+  return (properties.optimalTilingFeatures & needed) == needed ? TableFormat::Float : otherwise;
+}
+
 const VkDescriptorSetLayoutBinding* Resources::tableLayoutBindings() {
   return kTableLayoutBindings;
 }

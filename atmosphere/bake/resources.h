@@ -20,6 +20,11 @@ struct TileConstants {
 inline constexpr uint32_t kTableBindings = 5;  ///< Uniforms and four sampled tables.
 inline constexpr uint32_t kInputBindings = 8;  ///< Uniforms and seven sampled images.
 
+VkFormat vulkanFormat(TableFormat format);
+/// Float where the device stores and filters it, else `otherwise`: for what differences are taken
+/// of, or what must not round the tables.
+TableFormat finestFormat(const engine::Device& device, TableFormat otherwise);
+
 /// Made with the context, destroyed with it. Thread-safe.
 class Resources {
  public:

@@ -7,21 +7,6 @@ namespace alpenglow {
 namespace bake {
 namespace {
 
-VkFormat formatOf(TableFormat format) {
-  return format == TableFormat::Half ? VK_FORMAT_R16G16B16A16_SFLOAT
-                                     : VK_FORMAT_R32G32B32A32_SFLOAT;
-}
-
-// T is kept in 32 bits where the device can filter them: the solver and the renderer take
-// differences of optical depths, and its 256 KB cost nothing.
-TableFormat opticalDepthFormat(const engine::Device& device, TableFormat format) {
-  const VkFormatFeatureFlags needed = VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
-                                      VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT |
-                                      VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
-  const VkFormatProperties properties = device.formatProperties(VK_FORMAT_R32G32B32A32_SFLOAT);
-  return (properties.optimalTilingFeatures & needed) == needed ? TableFormat::Float : format;
-}
-
 Status checkSize(const engine::Device& device, const char* name, uint32_t value, uint32_t least,
                  uint32_t most) {
   if (value >= least && value <= most) return Status::Ok;
@@ -138,9 +123,7 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
     status = device.fail(Status::OutOfHostMemory, VK_SUCCESS, "Tables found no host memory.");
   }
   if (status != Status::Ok) {
-    // Nothing was recorded with these tables: frame 0 has always completed.
-    destroy(tables, FrameInfo{});
-    device.deletions().collect(0);
+    destroy(tables, FrameInfo{});  // Nothing was recorded with them: frame 0 has always completed.
     return status;
   }
   *out = tables;
@@ -172,7 +155,7 @@ Status Tables::makeImages() {
       "Alpenglow T",  "Alpenglow E",  "Alpenglow S",  "Alpenglow single Mie", "Alpenglow dE",
       "Alpenglow dS", "Alpenglow dJ", "Alpenglow dL", "Alpenglow dL Mie"};
   const TableSizes& s = desc_.sizes;
-  const VkFormat format = bake::formatOf(desc_.format);
+  const VkFormat format = bake::vulkanFormat(desc_.format);
   const VkExtent3D scattering = {s.scatteringMuS * s.scatteringNu, s.scatteringMu, s.scatteringR};
   const VkExtent3D incident = {s.scatteringNu * bake::kSphereTheta, s.scatteringMuS * s.scatteringR,
                                1};
@@ -190,7 +173,9 @@ Status Tables::makeImages() {
     desc.format = format;
     desc.extent = isIncident ? incident : isIrradiance ? irradiance : scattering;
     if (i == bake::kOpticalDepth) {
-      desc.format = bake::formatOf(bake::opticalDepthFormat(device_, desc_.format));
+      // In 32 bits where it can be: the solver and the renderer take differences of optical depths,
+      // and its 256 KB cost nothing.
+      desc.format = bake::vulkanFormat(bake::finestFormat(device_, desc_.format));
       desc.extent = {s.transmittanceMu, s.transmittanceR, 1};
     }
     desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
@@ -295,7 +280,7 @@ Status Tables::writeBakeSets() {
 Status Tables::makePipelines() {
   for (const bake::Pass& pass : passes_) {
     const TableFormat format = pass.kind == bake::PassKind::OpticalDepth
-                                   ? bake::opticalDepthFormat(device_, desc_.format)
+                                   ? bake::finestFormat(device_, desc_.format)
                                    : desc_.format;
     VkPipeline pipeline = VK_NULL_HANDLE;
     const Status status =

@@ -90,6 +90,14 @@ Status checkViewport(const engine::Device& device, const VkRect2D& area) {
 
 }  // namespace
 
+double cameraRadius(const Camera& camera) {
+  return std::sqrt(dot(camera.position_m, camera.position_m));
+}
+
+double cameraAltitude(const Parameters& parameters, const Camera& camera) {
+  return std::max(cameraRadius(camera) - parameters.bottomRadius_m, 0.0);
+}
+
 Status checkDraw(const engine::Device& device, const ViewDesc& desc, const SkyDraw& draw) {
   const Camera& c = draw.camera;
   const double r2 = dot(c.position_m, c.position_m);
@@ -129,7 +137,7 @@ Visible visible(const Parameters& parameters, const ViewDesc& desc, const SkyDra
   // longer.
   const double margin = 0.005;
   const double edge = 2.0 * pixelAngle(desc, draw);
-  const double r = std::sqrt(dot(c.position_m, c.position_m));
+  const double r = cameraRadius(c);
   const double down[3] = {-c.position_m[0] / r, -c.position_m[1] / r, -c.position_m[2] / r};
   const double planet = std::asin(std::min(1.0, parameters.bottomRadius_m / r));
   Visible result;
@@ -144,9 +152,6 @@ SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc,
   const Camera& c = draw.camera;
   const Viewport v = viewportOf(draw);
   const bool fisheye = desc.projection == Projection::Fisheye;
-  const double r = std::sqrt(dot(c.position_m, c.position_m));
-  // The one subtraction that loses digits, taken in double: see shaders/glsl/physics/geometry.glsl.
-  const double altitude = std::max(r - parameters.bottomRadius_m, 0.0);
   const double right[3] = {c.forward[1] * c.up[2] - c.forward[2] * c.up[1],
                            c.forward[2] * c.up[0] - c.forward[0] * c.up[2],
                            c.forward[0] * c.up[1] - c.forward[1] * c.up[0]};
@@ -158,7 +163,7 @@ SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc,
   const double scale = draw.radianceScale == 0.0 ? 1.0 : draw.radianceScale;
 
   SkyConstants k = {};
-  store(k.upAltitude, c.position_m, 1.0 / r, altitude);
+  store(k.upAltitude, c.position_m, 1.0 / cameraRadius(c), cameraAltitude(parameters, c));
   store(k.forwardPixel, c.forward, 1.0, pixel);
   store(k.rightHalfAngle, right, fisheye ? 1.0 : tangent * v.width / v.height, 0.5 * c.fov);
   store(k.downMapTexel, c.up, -tangent, texel);

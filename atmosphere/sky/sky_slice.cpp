@@ -4,7 +4,6 @@
 #include <alpenglow/shaders/sky_slice_rgba32f.h>
 
 #include <algorithm>
-#include <cmath>
 #include <new>
 
 namespace alpenglow::sky {
@@ -17,18 +16,6 @@ struct SliceConstants {
 constexpr VkDescriptorSetLayoutBinding kBindings[2] = {
     {0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
     {1, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}};
-
-double length(const double v[3]) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
-
-// 32 bits where the device filters them: the slice must not round what the tables hold.
-VkFormat sliceFormat(const engine::Device& device) {
-  const VkFormatFeatureFlags needed =
-      VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT | VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT;
-  const VkFormat wide = VK_FORMAT_R32G32B32A32_SFLOAT;
-  return (device.formatProperties(wide).optimalTilingFeatures & needed) == needed
-             ? wide
-             : VK_FORMAT_R16G16B16A16_SFLOAT;
-}
 
 }  // namespace
 
@@ -67,11 +54,11 @@ void SkySlice::destroy(SkySlice* slice, const FrameInfo& frame) {
 }
 
 Status SkySlice::make() {
-  const VkFormat format = sliceFormat(device_);
+  const TableFormat format = bake::finestFormat(device_, TableFormat::Half);
   engine::Image* images[] = {&images_[0], &images_[1]};
   for (uint32_t i = 0; i < count_; ++i) {
     engine::ImageDesc desc;
-    desc.format = format;
+    desc.format = bake::vulkanFormat(format);
     desc.extent = {sizes_.scatteringNu, sizes_.scatteringMu, 1};
     desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     desc.name = i == 0 ? "Alpenglow sky slice" : "Alpenglow sky slice Mie";
@@ -96,7 +83,7 @@ Status SkySlice::make() {
   return makePipeline(format);
 }
 
-Status SkySlice::makePipeline(VkFormat format) {
+Status SkySlice::makePipeline(TableFormat format) {
   const VkDescriptorSetLayout sets[] = {resources_.tableLayout(), setLayout_};
   const VkPushConstantRange range = {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(SliceConstants)};
   const Status status =
@@ -106,7 +93,7 @@ Status SkySlice::makePipeline(VkFormat format) {
   const engine::SpecConstant packed = engine::specBool(0, mie_ == MieStorage::Packed);
   engine::ComputePipelineDesc desc;
   desc.shader =
-      format == VK_FORMAT_R32G32B32A32_SFLOAT
+      format == TableFormat::Float
           ? engine::Shader{s::kSkySliceFloat, sizeof s::kSkySliceFloat, "sky_slice.comp (rgba32f)"}
           : engine::Shader{s::kSkySliceHalf, sizeof s::kSkySliceHalf, "sky_slice.comp (rgba16f)"};
   desc.layout = layout_;
@@ -116,7 +103,8 @@ Status SkySlice::makePipeline(VkFormat format) {
 }
 
 bool SkySlice::inside(const Tables& tables, const SkyDraw& draw) {
-  return length(draw.camera.position_m) <= tables.parameters().topRadius_m;
+  const Parameters& p = tables.parameters();
+  return cameraAltitude(p, draw.camera) <= p.topRadius_m - p.bottomRadius_m;
 }
 
 Status SkySlice::record(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw) {
@@ -126,10 +114,10 @@ Status SkySlice::record(VkCommandBuffer commands, const Tables& tables, const Sk
   if (status != Status::Ok) return status;
 
   const Camera& camera = draw.camera;
-  const double r = length(camera.position_m);
+  const double altitude = cameraAltitude(tables.parameters(), camera);
+  const double r = cameraRadius(camera);
   double muS = 0.0;
   for (int i = 0; i < 3; ++i) muS += camera.position_m[i] / r * draw.sun.direction[i];
-  const double altitude = std::max(r - tables.parameters().bottomRadius_m, 0.0);
   const SliceConstants constants = {static_cast<float>(altitude), static_cast<float>(muS)};
   const engine::Dispatch& vk = device_.vk();
   const VkDescriptorSet sets[] = {tables.descriptorSet(), set_};

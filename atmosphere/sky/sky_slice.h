@@ -7,6 +7,12 @@
 
 namespace alpenglow::sky {
 
+/// Distance from the planet's centre.
+double cameraRadius(const Camera& camera);
+/// The one subtraction that loses digits, taken in double (shaders/glsl/physics/geometry.glsl); 0
+/// below the ground.
+double cameraAltitude(const Parameters& parameters, const Camera& camera);
+
 /// Owned by a view; externally synchronised.
 class SkySlice {
  public:
@@ -39,7 +45,7 @@ class SkySlice {
         mie_(mie),
         count_(mie == MieStorage::Full ? 2 : 1) {}
   Status make();
-  Status makePipeline(VkFormat format);
+  Status makePipeline(TableFormat format);
 
   bake::Resources& resources_;
   engine::Device& device_;

@@ -63,7 +63,7 @@ TYPED_TEST(OpticalDepth, TransmittanceMultipliesAlongARay) {
 }
 
 TYPED_TEST(OpticalDepth, ShortSegmentsKeepTheirDigits) {
-  // 1 - T of a kilometre at 2 m altitude: a quotient of tabulated values is 5 to 18 % off.
+  // 1 - T of a kilometre at 2 m altitude, which a quotient of tabulated values loses.
   using Real = typename TypeParam::Real;
   const Parameters p = preset("earth");
   const auto m = TypeParam::medium(p);

@@ -108,8 +108,7 @@ ALPENGLOW_FN Spectrum opticalDepthOfSide(IN(Medium) m, Real h, Real mu, Real low
 }
 
 // Optical depth of the first d metres of a ray, both sides of its lowest point. Integrated, not taken as
-// a difference of tabulated values: 1 - T of a short segment keeps its digits (a difference of values
-// read from the 256x64 table is 5 to 18 % off for 1 km near the ground).
+// a difference of tabulated values: 1 - T of a short segment keeps its digits.
 ALPENGLOW_FN Spectrum opticalDepthOfSegment(IN(Medium) m, Real h, Real mu, Real d) {
   Real lowest = clamp(-radiusAt(m, h) * mu, REAL(0.0), d);
   return opticalDepthOfSide(m, h, mu, lowest, REAL(-1.0), lowest) +
