@@ -37,8 +37,10 @@ Status createTables(Context* context, const Parameters& parameters, const TableD
   char message[512];
   if (validate(parameters, message, sizeof message) != Status::Ok)
     return context->device->fail(Status::InvalidArgument, VK_SUCCESS, "%s", message);
+  Status status = bake::checkTableDesc(*context->device, desc);
+  if (status != Status::Ok) return status;
   const TableDesc full = bake::completed(desc);
-  const Status status = bake::checkTableDesc(*context->device, full);
+  status = bake::checkSizes(*context->device, full);
   if (status != Status::Ok) return status;
   const bool bakes = (context->capabilities & kCapabilityBake) != 0;
   return Tables::create(*context->bake, parameters, full, bakes, out);

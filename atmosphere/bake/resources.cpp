@@ -1,55 +1,11 @@
 #include "atmosphere/bake/resources.h"
 
-#include <alpenglow/shaders/diffuse_irradiance_rgba16f.h>
-#include <alpenglow/shaders/diffuse_irradiance_rgba32f.h>
-#include <alpenglow/shaders/direct_irradiance_rgba16f.h>
-#include <alpenglow/shaders/direct_irradiance_rgba32f.h>
-#include <alpenglow/shaders/incident_radiance_rgba16f.h>
-#include <alpenglow/shaders/incident_radiance_rgba32f.h>
-#include <alpenglow/shaders/multiple_scattering_rgba16f.h>
-#include <alpenglow/shaders/multiple_scattering_rgba32f.h>
-#include <alpenglow/shaders/optical_depth_rgba16f.h>
-#include <alpenglow/shaders/optical_depth_rgba32f.h>
-#include <alpenglow/shaders/scattering_density_rgba16f.h>
-#include <alpenglow/shaders/scattering_density_rgba32f.h>
-#include <alpenglow/shaders/single_scattering_rgba16f.h>
-#include <alpenglow/shaders/single_scattering_rgba32f.h>
-
 #include <new>
 
 #include "engine/sampler.h"
 
 namespace alpenglow::bake {
 namespace {
-
-using engine::Shader;
-
-Shader shaderOf(PassKind kind, TableFormat format) {
-  namespace s = alpenglow::shaders;
-  const bool half = format == TableFormat::Half;
-#define ALPENGLOW_SHADER(name)                                                      \
-  half ? Shader{s::name##Half, sizeof s::name##Half, #name " (rgba16f)"} : Shader { \
-    s::name##Float, sizeof s::name##Float, #name " (rgba32f)"                       \
-  }
-  switch (kind) {
-    case PassKind::OpticalDepth:
-      return ALPENGLOW_SHADER(kOpticalDepth);
-    case PassKind::DirectIrradiance:
-      return ALPENGLOW_SHADER(kDirectIrradiance);
-    case PassKind::SingleScattering:
-      return ALPENGLOW_SHADER(kSingleScattering);
-    case PassKind::IncidentRadiance:
-      return ALPENGLOW_SHADER(kIncidentRadiance);
-    case PassKind::ScatteringDensity:
-      return ALPENGLOW_SHADER(kScatteringDensity);
-    case PassKind::DiffuseIrradiance:
-      return ALPENGLOW_SHADER(kDiffuseIrradiance);
-    case PassKind::MultipleScattering:
-      return ALPENGLOW_SHADER(kMultipleScattering);
-  }
-#undef ALPENGLOW_SHADER
-  return {};
-}
 
 constexpr VkDescriptorSetLayoutBinding binding(uint32_t index, VkDescriptorType type,
                                                VkShaderStageFlags stages) {
@@ -68,16 +24,11 @@ constexpr VkDescriptorSetLayoutBinding kTableLayoutBindings[kTableBindings] = {
 constexpr VkDescriptorSetLayoutBinding kInputLayoutBindings[kInputBindings] = {
     binding(0, kUniform, kCompute), binding(1, kSampled, kCompute), binding(2, kSampled, kCompute),
     binding(3, kSampled, kCompute), binding(4, kSampled, kCompute), binding(5, kSampled, kCompute),
-    binding(6, kSampled, kCompute), binding(7, kSampled, kCompute)};
+    binding(6, kSampled, kCompute), binding(7, kSampled, kCompute), binding(8, kSampled, kCompute)};
 constexpr VkDescriptorSetLayoutBinding kOutputLayoutBindings[kMaxOutputs] = {
     binding(0, kStorage, kCompute), binding(1, kStorage, kCompute), binding(2, kStorage, kCompute)};
 
 }  // namespace
-
-VkFormat vulkanFormat(TableFormat format) {
-  return format == TableFormat::Half ? VK_FORMAT_R16G16B16A16_SFLOAT
-                                     : VK_FORMAT_R32G32B32A32_SFLOAT;
-}
 
 TableFormat finestFormat(const engine::Device& device, TableFormat otherwise) {
   const VkFormatFeatureFlags needed = VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
@@ -130,7 +81,11 @@ Status Resources::makeLayouts() {
   if (status != Status::Ok) return status;
   engine::SamplerDesc sampler;
   sampler.name = "Alpenglow tables";
-  return engine::createSampler(device_, sampler, &sampler_);
+  status = engine::createSampler(device_, sampler, &sampler_);
+  if (status != Status::Ok) return status;
+  sampler.filter = VK_FILTER_NEAREST;
+  sampler.name = "Alpenglow texels";
+  return engine::createSampler(device_, sampler, &nearestSampler_);
 }
 
 void Resources::destroy(Resources* resources) {
@@ -143,30 +98,28 @@ void Resources::destroy(Resources* resources) {
   for (VkDescriptorSetLayout layout :
        {resources->tableLayout_, resources->inputLayout_, resources->outputLayout_})
     vk.DestroyDescriptorSetLayout(device.handle(), layout, device.allocator());
-  vk.DestroySampler(device.handle(), resources->sampler_, device.allocator());
+  for (VkSampler sampler : {resources->sampler_, resources->nearestSampler_})
+    vk.DestroySampler(device.handle(), sampler, device.allocator());
   delete resources;
 }
 
-Status Resources::pipeline(PassKind kind, TableFormat format, bool firstOrder, MieStorage mie,
-                           VkPipeline* out) {
-  // Only the passes that look at a constant come in variants.
-  const bool readsOrderBefore = kind == PassKind::IncidentRadiance ||
-                                kind == PassKind::ScatteringDensity ||
-                                kind == PassKind::DiffuseIrradiance;
-  const Key key = {kind, format, readsOrderBefore && firstOrder,
-                   kind == PassKind::SingleScattering ? mie : MieStorage::Full};
+Status Resources::pipeline(const Stage& stage, VkPipeline* out) {
+  Key key;
+  key.first = stage.shader.code;
+  engine::SpecConstant constants[kStageConstants];
+  for (uint32_t i = 0; i < kStageConstants; ++i) {
+    key.second[i] = stage.constants[i];
+    constants[i] = engine::specBool(i, stage.constants[i]);
+  }
   const std::scoped_lock lock(mutex_);
   VkPipeline& slot = pipelines_[key];  // First, because it may throw.
   *out = slot;
   if (slot != VK_NULL_HANDLE) return Status::Ok;
-  const engine::SpecConstant constants[] = {
-      engine::specBool(0, std::get<2>(key)),
-      engine::specBool(1, std::get<3>(key) == MieStorage::Packed)};
   engine::ComputePipelineDesc desc;
-  desc.shader = shaderOf(kind, format);
+  desc.shader = stage.shader;
   desc.layout = pipelineLayout_;
   desc.constants = constants;
-  desc.constantCount = 2;
+  desc.constantCount = kStageConstants;
   const Status status = engine::createComputePipeline(device_, desc, &slot);
   *out = slot;
   return status;

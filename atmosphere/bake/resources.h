@@ -1,12 +1,13 @@
-// What all tables of a context share: layouts, the sampler, and the pipelines of the passes.
+// What all tables of a context share: layouts, samplers, and the pipelines of the stages.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <map>
 #include <mutex>
-#include <tuple>
+#include <utility>
 
-#include "atmosphere/bake/pass.h"
+#include "atmosphere/bake/plan.h"
 #include "engine/descriptors.h"
 #include "engine/pipeline.h"
 
@@ -17,10 +18,9 @@ struct TileConstants {
   uint32_t firstRow, endRow, width, height;
 };
 
-inline constexpr uint32_t kTableBindings = 5;  ///< Uniforms and four sampled tables.
-inline constexpr uint32_t kInputBindings = 8;  ///< Uniforms and seven sampled images.
+inline constexpr uint32_t kTableBindings = 1 + kBoundTables;  ///< Uniforms and sampled tables.
+inline constexpr uint32_t kInputBindings = 1 + kMaxInputs;    ///< Uniforms and sampled images.
 
-VkFormat vulkanFormat(TableFormat format);
 /// Float where the device stores and filters it, else `otherwise`: for what differences are taken
 /// of, or what must not round the tables.
 TableFormat finestFormat(const engine::Device& device, TableFormat otherwise);
@@ -37,14 +37,15 @@ class Resources {
   VkDescriptorSetLayout outputLayout() const { return outputLayout_; }
   VkPipelineLayout pipelineLayout() const { return pipelineLayout_; }
   VkSampler sampler() const { return sampler_; }
+  /// For images that are read with texelFetch: their format need not filter.
+  VkSampler nearestSampler() const { return nearestSampler_; }
 
   static const VkDescriptorSetLayoutBinding* tableLayoutBindings();
   static const VkDescriptorSetLayoutBinding* inputLayoutBindings();
   static const VkDescriptorSetLayoutBinding* outputLayoutBindings();
 
-  /// The pipeline of a pass for tables of a format; made at the first call and kept.
-  Status pipeline(PassKind kind, TableFormat format, bool firstOrder, MieStorage mie,
-                  VkPipeline* out);
+  /// The pipeline of a stage; made at the first call for its shader and constants, and kept.
+  Status pipeline(const Stage& stage, VkPipeline* out);
 
   /// Objects of the host that are alive on this context.
   std::atomic<uint32_t> liveTables{0}, liveViews{0};
@@ -54,14 +55,14 @@ class Resources {
   explicit Resources(engine::Device& device) : device_(device) {}
   Status makeLayouts();
 
-  using Key = std::tuple<PassKind, TableFormat, bool, MieStorage>;
+  using Key = std::pair<const uint32_t*, std::array<bool, kStageConstants>>;
 
   engine::Device& device_;
   VkDescriptorSetLayout tableLayout_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout inputLayout_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout outputLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout pipelineLayout_ = VK_NULL_HANDLE;
-  VkSampler sampler_ = VK_NULL_HANDLE;
+  VkSampler sampler_ = VK_NULL_HANDLE, nearestSampler_ = VK_NULL_HANDLE;
   std::mutex mutex_;
   std::map<Key, VkPipeline> pipelines_;
 };

@@ -7,6 +7,7 @@ namespace alpenglow {
 inline namespace v1 {
 namespace {
 
+using bake::isOrderTable;
 using bake::kNoImage;
 
 // Where host shaders and our own sample the finished tables.
@@ -15,7 +16,18 @@ constexpr ImageState kReadable = {
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
     VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
 
-constexpr bool isOrderTable(TableId id) { return id >= TableId::OrderIrradiance; }
+/// What a table is called, and which solver has it.
+struct TableKind {
+  const char* name;
+  bool moments, standard;
+};
+constexpr TableKind kTableKinds[kTableIdCount] = {
+    {"optical_depth", true, true},     {"moments", true, false},
+    {"source", true, false},           {"irradiance", false, true},
+    {"scattering", false, true},       {"single_mie", false, true},
+    {"order moments", true, false},    {"order source", true, false},
+    {"order irradiance", false, true}, {"order scattering", false, true},
+    {"order single Mie", false, true}};
 
 VkBufferImageCopy wholeCopy(const engine::Image& image, VkDeviceSize offset) {
   VkBufferImageCopy copy = {};
@@ -41,24 +53,25 @@ Status Tables::recordBake(VkCommandBuffer commands, const FrameInfo& frame, uint
                         "recordBake was called on tables that were filled by recordTableUpload, "
                         "but a bake needs tables of its own.");
   }
-  const uint32_t passCount = static_cast<uint32_t>(passes_.size());
+  const uint32_t passCount = static_cast<uint32_t>(plan_.passes.size());
   BakeProgress now;
   now.passCount = passCount;
   now.unitsTotal = unitsTotal_;
   if (currentPass_ < passCount) {
-    const bake::Pass& pass = passes_[currentPass_];
+    const bake::Pass& pass = plan_.passes[currentPass_];
+    const bake::Stage& stage = plan_.stages[pass.stage];
     const uint64_t rowsWanted =
-        budget == 0 ? pass.rows : budget / std::max<uint64_t>(pass.unitsPerRow, 1);
+        budget == 0 ? stage.rows : budget / std::max<uint64_t>(stage.unitsPerRow(), 1);
     const uint64_t tiles = std::clamp<uint64_t>(rowsWanted / bake::kTileRows, 1, 65535);
-    const uint32_t endRow =
-        static_cast<uint32_t>(std::min<uint64_t>(pass.rows, currentRow_ + tiles * bake::kTileRows));
+    const uint32_t endRow = static_cast<uint32_t>(
+        std::min<uint64_t>(stage.rows, currentRow_ + tiles * bake::kTileRows));
     const Status status = recordPass(commands, pass, currentRow_, endRow);
     if (status != Status::Ok) return status;
-    now.unitsRecorded = (endRow - currentRow_) * pass.unitsPerRow;
+    now.unitsRecorded = (endRow - currentRow_) * stage.unitsPerRow();
     now.passIndex = currentPass_;
     now.pass = pass.name;
     now.order = pass.order;
-    now.passFinished = endRow == pass.rows;
+    now.passFinished = endRow == stage.rows;
     unitsDone_ += now.unitsRecorded;
     currentRow_ = now.passFinished ? 0 : endRow;
     currentPass_ += now.passFinished ? 1 : 0;
@@ -76,14 +89,14 @@ Status Tables::recordBake(VkCommandBuffer commands, const FrameInfo& frame, uint
 Status Tables::recordPass(VkCommandBuffer commands, const bake::Pass& pass, uint32_t firstRow,
                           uint32_t endRow) {
   const engine::Dispatch& vk = device_.vk();
-  const bake::PassIo& io = bake::passIo(pass.kind);
+  const bake::Stage& stage = plan_.stages[pass.stage];
+  const StageObjects& objects = stages_[pass.stage];
   engine::Barriers barriers;
-  for (const uint32_t* input = io.inputs; *input != kNoImage; ++input)
-    barriers.image(images_[*input], engine::kComputeSampled);
-  for (uint32_t i = 0; i < bake::kMaxOutputs && io.outputs[i] != kNoImage; ++i) {
-    engine::Image& image = images_[io.outputs[i]];
-    const bool last = i + 1 == bake::kMaxOutputs || io.outputs[i + 1] == kNoImage;
-    if (io.accumulates && last) {
+  for (const bake::StageInput& input : stage.inputs)
+    barriers.image(images_[input.image], engine::kComputeSampled);
+  for (const bake::StageOutput& output : stage.outputs) {
+    engine::Image& image = images_[output.image];
+    if (output.accumulates) {
       barriers.image(image, engine::kComputeReadWrite);
     } else if (firstRow == 0) {
       barriers.discard(image, engine::kComputeWrite);
@@ -95,14 +108,14 @@ Status Tables::recordPass(VkCommandBuffer commands, const bake::Pass& pass, uint
   if (status != Status::Ok) return status;
 
   device_.beginLabel(commands, pass.name);
-  const VkDescriptorSet sets[] = {inputSet_, outputSets_[static_cast<uint32_t>(pass.kind)]};
-  const bake::TileConstants tile = {firstRow, endRow, pass.width, pass.height};
-  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipelines_[currentPass_]);
+  const VkDescriptorSet sets[] = {objects.inputs, objects.outputs};
+  const bake::TileConstants tile = {firstRow, endRow, stage.width, stage.height};
+  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, objects.pipeline);
   vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, resources_.pipelineLayout(), 0,
                            2, sets, 0, nullptr);
   vk.CmdPushConstants(commands, resources_.pipelineLayout(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                       sizeof tile, &tile);
-  vk.CmdDispatch(commands, (pass.width + 7) / 8,
+  vk.CmdDispatch(commands, (stage.width + 7) / 8,
                  (endRow - firstRow + bake::kTileRows - 1) / bake::kTileRows, 1);
   device_.endLabel(commands);
   ++device_.counters().dispatches;
@@ -111,8 +124,8 @@ Status Tables::recordPass(VkCommandBuffer commands, const bake::Pass& pass, uint
 
 Status Tables::makeReadable(VkCommandBuffer commands) {
   engine::Barriers barriers;
-  for (uint32_t i = 0; i < bake::kImageCount; ++i)
-    if (persistent(i)) barriers.image(images_[i], kReadable);
+  for (size_t i = 0; i < images_.size(); ++i)
+    if (plan_.images[i].persistent) barriers.image(images_[i], kReadable);
   return barriers.record(device_, commands);
 }
 
@@ -127,62 +140,65 @@ Status Tables::finish(VkCommandBuffer commands, const FrameInfo& frame) {
 void Tables::releaseScratch(const FrameInfo& frame) {
   if (scratchReleased_) return;
   scratchReleased_ = true;
-  for (uint32_t i = 0; i < bake::kImageCount; ++i)
-    if (!persistent(i)) engine::deferImage(device_, frame.submitting, &images_[i]);
+  for (size_t i = 0; i < images_.size(); ++i)
+    if (!plan_.images[i].persistent) engine::deferImage(device_, frame.submitting, &images_[i]);
   engine::deferBlock(device_, frame.submitting, &scratchBlock_);
 }
 
 uint32_t Tables::imageOf(TableId id) const {
-  switch (id) {
-    case TableId::OpticalDepth:
-      return bake::kOpticalDepth;
-    case TableId::Irradiance:
-      return bake::kIrradiance;
-    case TableId::Scattering:
-      return bake::kScattering;
-    case TableId::SingleMie:
-      return desc_.mie == MieStorage::Full ? bake::kDeltaMie : kNoImage;
-    case TableId::OrderIrradiance:
-      return desc_.keepOrders && bakes_ ? bake::kDeltaIrradiance : kNoImage;
-    case TableId::OrderScattering:
-      return desc_.keepOrders && bakes_ ? bake::kDeltaScattering : kNoImage;
-    case TableId::OrderSingleMie:
-      return desc_.keepOrders && bakes_ ? bake::kDeltaMie : kNoImage;
-  }
-  return kNoImage;
+  return isOrderTable(id) && !(desc_.keepOrders && bakes_) ? kNoImage : plan_.imageOf(id);
+}
+
+Status Tables::missing(TableId id) const {
+  const auto index = static_cast<uint32_t>(id);
+  const bool known = index < kTableIdCount;
+  const TableKind kind =
+      known ? kTableKinds[index] : TableKind{"of an unknown TableId", true, true};
+  const bool hasIt = desc_.solver == Solver::Moments ? kind.moments : kind.standard;
+  const char* needs = !known             ? "one of the enumeration"
+                      : !hasIt           ? (kind.moments ? "Solver::Moments" : "Solver::Standard")
+                      : isOrderTable(id) ? "TableDesc::keepOrders"
+                                         : "MieStorage::Full";
+  return device_.fail(Status::Unsupported, VK_SUCCESS,
+                      "These tables have no table %s: it needs %s.", kind.name, needs);
 }
 
 Status Tables::info(TableId id, TableInfo* out) const {
-  static constexpr const char* kNames[kTableIdCount] = {
-      "optical_depth",    "irradiance",       "scattering",      "single_mie",
-      "order irradiance", "order scattering", "order single Mie"};
-  const uint32_t index = static_cast<uint32_t>(id);
-  const uint32_t image = index < kTableIdCount ? imageOf(id) : kNoImage;
   *out = {};
-  if (image == kNoImage) {
-    return device_.fail(Status::Unsupported, VK_SUCCESS,
-                        "These tables have no table %s: it needs %s.",
-                        index < kTableIdCount ? kNames[index] : "of an unknown TableId",
-                        isOrderTable(id) ? "TableDesc::keepOrders" : "MieStorage::Full");
-  }
-  const engine::ImageDesc& desc = images_[image].desc;
-  out->name = kNames[index];
-  out->width = desc.extent.width;
-  out->height = desc.extent.height;
-  out->depth = desc.extent.depth;
-  out->format = desc.format;
+  const uint32_t image = static_cast<uint32_t>(id) < kTableIdCount ? imageOf(id) : kNoImage;
+  if (image == kNoImage) return missing(id);
+  const bake::PlanImage& plan = plan_.images[image];
+  out->name = kTableKinds[static_cast<uint32_t>(id)].name;
+  out->width = plan.extent.width;
+  out->height = plan.extent.height;
+  out->depth = plan.extent.depth;
+  out->format = plan.format;
   out->bytes = uint64_t(out->width) * out->height * out->depth * texelBytes(out->format);
   return Status::Ok;
 }
 
 // Order tables can be read between the pass that finished them and the next one.
-bool Tables::readable(TableId id) const {
-  if (!isOrderTable(id)) return ready_;
-  if (currentRow_ != 0 || currentPass_ == 0) return false;
-  const bake::Pass& last = passes_[currentPass_ - 1];
-  const bool scattered = last.kind == bake::PassKind::SingleScattering ||
-                         last.kind == bake::PassKind::MultipleScattering;
-  return scattered && (id != TableId::OrderSingleMie || last.order == 1);
+uint32_t Tables::readableImage(TableId id) const {
+  if (!isOrderTable(id)) return ready_ ? plan_.imageOf(id) : kNoImage;
+  if (currentRow_ != 0 || currentPass_ == 0) return kNoImage;
+  return plan_.imageAfter(plan_.passes[currentPass_ - 1], id);
+}
+
+Status Tables::notReadable(TableId id) const {
+  const char* name = kTableKinds[static_cast<uint32_t>(id)].name;
+  if (!isOrderTable(id)) {
+    return device_.fail(Status::NotReady, VK_SUCCESS,
+                        "The table %s can be read back only when the bake is done or the tables "
+                        "are uploaded.",
+                        name);
+  }
+  const char* first = "";
+  for (size_t i = plan_.passes.size(); i-- > 0;)
+    if (plan_.imageAfter(plan_.passes[i], id) != kNoImage) first = plan_.passes[i].name;
+  return device_.fail(Status::NotReady, VK_SUCCESS,
+                      "The table %s can be read back only right after the pass that finishes it "
+                      "for its order, the first time after \"%s\".",
+                      name, first);
 }
 
 Status Tables::recordReadback(VkCommandBuffer commands, TableId id, VkBuffer buffer,
@@ -197,16 +213,9 @@ Status Tables::recordReadback(VkCommandBuffer commands, TableId id, VkBuffer buf
                         table.name, buffer == VK_NULL_HANDLE ? "a null" : "a",
                         static_cast<unsigned long long>(offset));
   }
-  if (!readable(id)) {
-    return device_.fail(Status::NotReady, VK_SUCCESS,
-                        isOrderTable(id)
-                            ? "The table %s can be read back only right after the pass \"dS n\" "
-                              "has finished (OrderSingleMie after \"dS 1\")."
-                            : "The table %s can be read back only when the bake is done or the "
-                              "tables are uploaded.",
-                        table.name);
-  }
-  engine::Image& image = images_[imageOf(id)];
+  const uint32_t index = readableImage(id);
+  if (index == kNoImage) return notReadable(id);
+  engine::Image& image = images_[index];
   engine::Barriers barriers;
   barriers.image(image, engine::kTransferSource);
   status = barriers.record(device_, commands);
@@ -247,8 +256,8 @@ Status Tables::recordUpload(VkCommandBuffer commands, const FrameInfo& frame, Ta
   if (status != Status::Ok) return status;
   uploaded_ |= 1u << index;
   uint32_t needed = 0;
-  for (uint32_t i = 0; i < bake::kImageCount; ++i)
-    if (persistent(i)) needed |= 1u << i;
+  for (uint32_t i = 0; i < images_.size(); ++i)
+    if (plan_.images[i].persistent) needed |= 1u << i;
   if (uploaded_ == needed && !ready_) {
     ready_ = true;
     releaseScratch(frame);
@@ -263,8 +272,8 @@ Status Tables::assertReadable() const {
                         static_cast<unsigned long long>(unitsDone_),
                         static_cast<unsigned long long>(unitsTotal_));
   }
-  for (uint32_t i = 0; i < bake::kImageCount; ++i) {
-    if (!persistent(i)) continue;
+  for (size_t i = 0; i < images_.size(); ++i) {
+    if (!plan_.images[i].persistent) continue;
     const Status status =
         engine::assertLayout(device_, images_[i], VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     if (status != Status::Ok) return status;

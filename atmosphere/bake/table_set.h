@@ -6,31 +6,21 @@
 
 #include <vector>
 
-#include "atmosphere/bake/pass.h"
 #include "atmosphere/bake/resources.h"
 #include "atmosphere/model/physics_cpp.h"
 #include "engine/barriers.h"
+#include "engine/descriptors.h"
 #include "engine/memory.h"
 
 namespace alpenglow::bake {
 
-/// Twin of TableShape in shaders/glsl/physics/lookup.glsl.
-struct ShapeConstants {
-  float transmittanceMu, transmittanceR, irradianceMuS, irradianceR;
-  float scatteringR, scatteringMu, scatteringMuS, scatteringNu;
-};
-
-/// The uniform block of set 0, binding 0 (std140).
-struct AtmosphereConstants {
-  physics_f32::Medium medium;
-  ShapeConstants shape;
-};
-static_assert(sizeof(AtmosphereConstants) == 144);
-
-/// Ok, or a sentence to the diagnostic that names the wrong field of the description.
+/// Ok, or a sentence to the diagnostic that names the wrong field of the description, as the host
+/// gave it.
 Status checkTableDesc(const engine::Device& device, const TableDesc& desc);
 /// The description with its zeros replaced by defaults.
 TableDesc completed(const TableDesc& desc);
+/// Ok, or a sentence when a size of a completed description is out of range on this device.
+Status checkSizes(const engine::Device& device, const TableDesc& desc);
 
 }  // namespace alpenglow::bake
 
@@ -70,10 +60,13 @@ struct Tables {
   Status makeDescriptors();
   Status makePipelines();
   Status writeTableSet();
-  Status writeBakeSets();
-  bool persistent(uint32_t image) const;
+  Status writeStageSets(uint32_t stage);
+  void writeSampled(engine::DescriptorWriter* writer, uint32_t binding, uint32_t image) const;
   uint32_t imageOf(TableId id) const;  ///< kNoImage when these tables have none such.
-  bool readable(TableId id) const;
+  /// The image to copy now; kNoImage when the table is not finished.
+  uint32_t readableImage(TableId id) const;
+  Status missing(TableId id) const;
+  Status notReadable(TableId id) const;
   Status recordPass(VkCommandBuffer commands, const bake::Pass& pass, uint32_t firstRow,
                     uint32_t endRow);
   Status finish(VkCommandBuffer commands, const FrameInfo& frame);
@@ -86,21 +79,25 @@ struct Tables {
   Parameters parameters_;
   TableDesc desc_;
   bool bakes_;
-  std::vector<bake::Pass> passes_;
-  std::vector<VkPipeline> pipelines_;  ///< One for each pass; owned by the resources.
+  bake::SolverPlan plan_;
+  uint64_t unitsTotal_ = 0;
 
-  engine::Image images_[bake::kImageCount];
+  /// What the bake has for a stage.
+  struct StageObjects {
+    VkPipeline pipeline = VK_NULL_HANDLE;  ///< Owned by the resources.
+    VkDescriptorSet inputs = VK_NULL_HANDLE, outputs = VK_NULL_HANDLE;
+  };
+  std::vector<StageObjects> stages_;   ///< Empty without `bakes_`.
+  std::vector<engine::Image> images_;  ///< As in the plan; scratch is empty without `bakes_`.
   engine::Buffer uniforms_;
   engine::MemoryBlock persistentBlock_, scratchBlock_, uniformBlock_;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkDescriptorSet tableSet_ = VK_NULL_HANDLE;
-  VkDescriptorSet inputSet_ = VK_NULL_HANDLE;
-  VkDescriptorSet outputSets_[bake::kPassKindCount] = {};
 
   uint32_t currentPass_ = 0;
   uint32_t currentRow_ = 0;
-  uint64_t unitsDone_ = 0, unitsTotal_ = 0;
-  uint32_t uploaded_ = 0;  ///< Bits by ImageId.
+  uint64_t unitsDone_ = 0;
+  uint32_t uploaded_ = 0;  ///< Bits by image.
   bool scratchReleased_ = false;
   bool ready_ = false;
 };

@@ -71,6 +71,7 @@ TEST_F(SkyTest, ABakeContextRefusesViews) {
   ASSERT_EQ(createContext(desc, &made), Status::Ok);
   View* view = nullptr;
   ViewDesc viewDesc;
+  viewDesc.solver = Solver::Standard;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   EXPECT_EQ(createView(made, viewDesc, &view), Status::Unsupported);
   EXPECT_TRUE(contains(lastDiagnostic(), "createView needs a context with kCapabilitySky"))
@@ -122,6 +123,7 @@ TEST_F(SkyTest, WithoutDynamicRenderingRenderPassesDraw) {
   bakeAll(device(), baked);
   View* view = nullptr;
   ViewDesc viewDesc;
+  viewDesc.solver = Solver::Standard;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   EXPECT_EQ(createView(made, viewDesc, &view), Status::Unsupported);
   EXPECT_TRUE(contains(lastDiagnostic(), "dynamicRendering")) << lastDiagnostic();

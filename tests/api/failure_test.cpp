@@ -23,11 +23,13 @@ struct Host {
     Status status = createContext(desc, &context);
     if (status != Status::Ok) return keep(status, context == nullptr);
     TableDesc tiny;
+    tiny.solver = Solver::Standard;
     tiny.orders = 2;
     tiny.sizes = {4, 4, 4, 2, 2, 4, 4, 2};
     status = createTables(context, preset("earth"), tiny, &tables);
     if (status != Status::Ok) return keep(status, tables == nullptr && empty());
     ViewDesc viewDesc;
+    viewDesc.solver = Solver::Standard;
     viewDesc.colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
     status = createView(context, viewDesc, &view);
     return status == Status::Ok ? status : keep(status, view == nullptr);

@@ -21,6 +21,7 @@ TEST_F(SkyTest, DestroyedInFlightLivesUntilTheFrameCompletes) {
   bakeAll(device(), baked);
   View* view = nullptr;
   ViewDesc viewDesc;
+  viewDesc.solver = Solver::Standard;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
   TargetDesc targetDesc;
@@ -88,6 +89,7 @@ TEST_F(SkyTest, ForgottenObjectsAreReported) {
   ASSERT_EQ(createContext(desc, &made), Status::Ok);
   static View* forgotten = nullptr;  // So that a leak checker still finds what it holds.
   ViewDesc viewDesc;
+  viewDesc.solver = Solver::Standard;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   ASSERT_EQ(createView(made, viewDesc, &forgotten), Status::Ok);
   EXPECT_TRUE(diagnostics().empty());
@@ -124,6 +126,7 @@ TEST_F(SkyTest, UploadedTablesDrawTheSameBytes) {
     }
     EXPECT_TRUE(tablesReady(uploaded));
     ViewDesc viewDesc;
+    viewDesc.solver = Solver::Standard;
     viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     viewDesc.mie = mie;
     TargetDesc target;
@@ -162,6 +165,7 @@ TEST_F(SkyTest, ResourcesAreCounted) {
   EXPECT_EQ(report.pipelines, variantsOfBake);
 
   ViewDesc viewDesc;
+  viewDesc.solver = Solver::Standard;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   View* views[2] = {};
   for (View*& view : views) ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);

@@ -299,6 +299,7 @@ TEST_F(SkyTest, AllocationCallbacksArePaired) {
   bakeAll(device(), baked);
   View* view = nullptr;
   ViewDesc viewDesc;
+  viewDesc.solver = Solver::Standard;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
   EXPECT_EQ(probe(device(), made, baked, {ProbeQuery{}}).size(), 1u);
@@ -348,6 +349,7 @@ TEST_F(SkyTest, RecordingAllocatesNothing) {
 
   View* view = nullptr;
   ViewDesc viewDesc;
+  viewDesc.solver = Solver::Standard;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
   SkyDraw draw = makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0),

@@ -102,7 +102,7 @@ class AccuracyTest : public BakeTest {
 // baseline; its bounds hold what was measured.
 TEST_F(AccuracyTest, SegmentsByLength) {
   const Parameters p = preset("earth");
-  TableDesc desc;
+  TableDesc desc = standardDesc();
   desc.orders = 1;
   Tables* tables = bakeTables(p, desc);
   ASSERT_FALSE(HasFailure());
@@ -143,7 +143,7 @@ TEST_F(AccuracyTest, SegmentsByLength) {
 TEST_F(AccuracyTest, SingleScatteringByBand) {
   const Parameters p = preset("earth");
   for (TableFormat format : {TableFormat::Float, TableFormat::Half}) {
-    TableDesc desc;
+    TableDesc desc = standardDesc();
     desc.orders = 1;
     desc.format = format;
     Tables* tables = bakeTables(p, desc);

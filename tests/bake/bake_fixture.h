@@ -27,6 +27,14 @@ using TableCopies = std::map<TableId, CpuTable>;
 /// Sizes whose bake takes about a CPU second.
 inline constexpr TableSizes kSmallSizes = {64, 16, 16, 4, 8, 32, 16, 4};
 
+/// Of the standard solver, by default at the paper's sizes.
+inline TableDesc standardDesc(const TableSizes& sizes = {}) {
+  TableDesc desc;
+  desc.solver = Solver::Standard;
+  desc.sizes = sizes;
+  return desc;
+}
+
 class BakeTest : public DeviceTest {
  protected:
   void SetUp() override;

@@ -13,9 +13,8 @@ constexpr TableId kFinalTables[] = {TableId::OpticalDepth, TableId::Irradiance, 
 constexpr TableSizes kTinySizes = {32, 8, 8, 4, 4, 8, 8, 3};
 
 TableDesc tinyDesc() {
-  TableDesc desc;
+  TableDesc desc = standardDesc(kTinySizes);
   desc.orders = 3;
-  desc.sizes = kTinySizes;
   return desc;
 }
 

@@ -145,10 +145,9 @@ class SolverTest : public BakeTest {
 };
 
 TEST_F(SolverTest, EveryTableIsWhatTheTextSaysInDouble) {
-  TableDesc desc;
+  TableDesc desc = standardDesc(kSmallSizes);
   desc.orders = 3;
   desc.format = TableFormat::Float;
-  desc.sizes = kSmallSizes;
   desc.keepOrders = true;
   Tables* tables = makeTables(preset("earth"), desc);
   bake(tables, 0, "dS 1");
@@ -185,10 +184,9 @@ TEST_F(SolverTest, EveryTableIsWhatTheTextSaysInDouble) {
 
 // The sums E and S are the orders' sums, and --orders N counts events as docs say.
 TEST_F(SolverTest, TheSumsAreTheSumsOfTheOrders) {
-  TableDesc desc;
+  TableDesc desc = standardDesc(kSmallSizes);
   desc.orders = 3;
   desc.format = TableFormat::Float;
-  desc.sizes = kSmallSizes;
   desc.keepOrders = true;
   Tables* tables = makeTables(preset("earth"), desc);
   std::vector<CpuTable> orders, irradiances;

@@ -15,7 +15,7 @@ class TableErrorsTest : public BakeTest {
 };
 
 TEST_F(TableErrorsTest, WrongSizesAreRefusedByName) {
-  TableDesc desc;
+  TableDesc desc = standardDesc();
   desc.sizes.scatteringMu = 33;
   expectRefused(desc, "scatteringMu is 33");
   desc.sizes = {};
@@ -28,12 +28,46 @@ TEST_F(TableErrorsTest, WrongSizesAreRefusedByName) {
   desc.sizes = {};
   desc.sizes.irradianceMuS = 1'000'000;
   expectRefused(desc, "irradianceMuS is 1000000");
-  desc = {};
+  desc = standardDesc();
   desc.orders = 1001;
   expectRefused(desc, "orders is 1001");
-  desc = {};
+  desc = standardDesc();
   desc.format = static_cast<TableFormat>(9);
   expectRefused(desc, "format 9");
+}
+
+TEST_F(TableErrorsTest, WhatBelongsToTheOtherSolverIsRefused) {
+  TableDesc desc;
+  desc.solver = Solver::Moments;
+  desc.mie = MieStorage::Packed;
+  expectRefused(desc, "Solver::Moments and MieStorage::Packed");
+  desc = {};
+  desc.sizes.scatteringNu = 8;
+  expectRefused(desc, "Solver::Moments and TableSizes");
+  desc = standardDesc();
+  desc.quality = Quality::High;
+  expectRefused(desc, "Solver::Standard and a Quality");
+  desc = standardDesc();
+  desc.moments.viewPanels = 4;
+  expectRefused(desc, "Solver::Standard and MomentSettings");
+  desc = {};
+  desc.solver = static_cast<Solver>(2);
+  expectRefused(desc, "solver 2");
+  desc = {};
+  desc.quality = static_cast<Quality>(6);
+  expectRefused(desc, "quality 6");
+}
+
+TEST_F(TableErrorsTest, WrongMomentSettingsAreRefusedByName) {
+  TableDesc desc;
+  desc.moments.degree = 32;
+  expectRefused(desc, "degree is 32, but must be from 2 to 31");
+  desc.moments = {};
+  desc.moments.depthMu = 5000;
+  expectRefused(desc, "depthMu is 5000");
+  desc.moments = {};
+  desc.moments.viewPanels = 1;
+  expectRefused(desc, "viewPanels is 1");
 }
 
 TEST_F(TableErrorsTest, WrongParametersAreRefusedInTheValidatorsWords) {
@@ -45,8 +79,7 @@ TEST_F(TableErrorsTest, WrongParametersAreRefusedInTheValidatorsWords) {
 }
 
 TEST_F(TableErrorsTest, TablesThatAreNotReadyAreNotReadOrProbed) {
-  TableDesc desc;
-  desc.sizes = kSmallSizes;
+  TableDesc desc = standardDesc(kSmallSizes);
   Tables* tables = makeTables(preset("earth"), desc);
   std::string error;
   const headless::HostBuffer buffer = device().createHostBuffer(
@@ -69,8 +102,7 @@ TEST_F(TableErrorsTest, TablesThatAreNotReadyAreNotReadOrProbed) {
 }
 
 TEST_F(TableErrorsTest, OrderTablesAreReadOnlyBetweenOrders) {
-  TableDesc desc;
-  desc.sizes = kSmallSizes;
+  TableDesc desc = standardDesc(kSmallSizes);
   desc.orders = 2;
   desc.keepOrders = true;
   Tables* tables = makeTables(preset("earth"), desc);
@@ -98,8 +130,7 @@ TEST_F(TableErrorsTest, OrderTablesAreReadOnlyBetweenOrders) {
 }
 
 TEST_F(TableErrorsTest, AFrameThatHasCompletedIsRefused) {
-  TableDesc desc;
-  desc.sizes = kSmallSizes;
+  TableDesc desc = standardDesc(kSmallSizes);
   Tables* tables = makeTables(preset("earth"), desc);
   run([&](VkCommandBuffer commands) {
     BakeProgress progress;
@@ -112,8 +143,7 @@ TEST_F(TableErrorsTest, AFrameThatHasCompletedIsRefused) {
 }
 
 TEST_F(TableErrorsTest, WrongQueriesAreRefusedByIndexAndField) {
-  TableDesc desc;
-  desc.sizes = kSmallSizes;
+  TableDesc desc = standardDesc(kSmallSizes);
   desc.orders = 1;
   Tables* tables = bakeTables(preset("earth"), desc);
   std::string error;

@@ -35,6 +35,7 @@ Vec vec(const double v[3]) { return {v[0], v[1], v[2]}; }
 
 TableDesc smallTables(MieStorage mie) {
   TableDesc desc;
+  desc.solver = Solver::Standard;
   desc.orders = 2;
   desc.mie = mie;
   desc.sizes = {64, 16, 16, 4, 8, 32, 16, 4};

@@ -39,7 +39,8 @@ struct ViewDesc {
   uint32_t subpass = 0;
   uint32_t viewMask = 0;  ///< Must be 0: multiview is refused by this version.
   Projection projection = Projection::Perspective;
-  MieStorage mie = MieStorage::Full;  ///< As the tables that will be drawn with.
+  Solver solver = Solver::Moments;    ///< As the tables that will be drawn with.
+  MieStorage mie = MieStorage::Full;  ///< The same; of Solver::Standard.
   GroundAlbedoMap groundAlbedo;
   /// Tables whose shape a sky slice takes; null: the view has none. With a slice, recordSkySlice
   /// once a frame makes a pixel of recordSky cost about half, for cameras inside the atmosphere.

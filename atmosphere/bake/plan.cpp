@@ -1,0 +1,49 @@
+#include "atmosphere/bake/plan.h"
+
+#include <cstdio>
+
+namespace alpenglow::bake {
+namespace {
+
+uint32_t find(const std::vector<TableImage>& tables, TableId id) {
+  for (const TableImage& table : tables)
+    if (table.id == id) return table.image;
+  return kNoImage;
+}
+
+}  // namespace
+
+uint32_t SolverPlan::addImage(const PlanImage& image) {
+  images.push_back(image);
+  return static_cast<uint32_t>(images.size() - 1);
+}
+
+uint32_t SolverPlan::addStage(const Stage& stage) {
+  stages.push_back(stage);
+  return static_cast<uint32_t>(stages.size() - 1);
+}
+
+void SolverPlan::addPass(uint32_t stage, const char* symbol, uint32_t order) {
+  Pass pass;
+  pass.stage = stage;
+  pass.order = order;
+  if (order == 0) {
+    std::snprintf(pass.name, sizeof pass.name, "%s", symbol);
+  } else {
+    std::snprintf(pass.name, sizeof pass.name, "%s %u", symbol, order);
+  }
+  passes.push_back(pass);
+}
+
+uint32_t SolverPlan::imageOf(TableId id) const { return find(tables, id); }
+
+uint32_t SolverPlan::imageAfter(const Pass& pass, TableId id) const {
+  return find(stages[pass.stage].finishes, id);
+}
+
+VkFormat vulkanFormat(TableFormat format) {
+  return format == TableFormat::Half ? VK_FORMAT_R16G16B16A16_SFLOAT
+                                     : VK_FORMAT_R32G32B32A32_SFLOAT;
+}
+
+}  // namespace alpenglow::bake

@@ -1,0 +1,157 @@
+// Checks of TableDesc, before anything is made.
+#include "atmosphere/bake/table_set.h"
+
+namespace alpenglow::bake {
+namespace {
+
+struct Size {
+  const char* name;
+  uint32_t value, least, most;
+};
+
+template <size_t N>
+Status checkRanges(const engine::Device& device, const char* what, const Size (&sizes)[N],
+                   bool zeroIsDefault) {
+  for (const Size& size : sizes) {
+    if ((size.value >= size.least && size.value <= size.most) ||
+        (size.value == 0 && zeroIsDefault)) {
+      continue;
+    }
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "The %s %s is %u, but must be from %u to %u%s.", what, size.name, size.value,
+                       size.least, size.most, zeroIsDefault ? ", or 0 for the default" : "");
+  }
+  return Status::Ok;
+}
+
+template <typename Counts>
+bool anyGiven(const Counts& counts, const uint32_t Counts::*first) {
+  static_assert(sizeof(Counts) % sizeof(uint32_t) == 0);
+  const uint32_t* values = &(counts.*first);
+  for (size_t i = 0; i < sizeof(Counts) / sizeof(uint32_t); ++i)
+    if (values[i] != 0) return true;
+  return false;
+}
+
+Status checkEnumerations(const engine::Device& device, const TableDesc& desc) {
+  if (desc.solver <= Solver::Standard && desc.format <= TableFormat::Float &&
+      desc.mie <= MieStorage::Packed && desc.quality <= Quality::Ultra) {
+    return Status::Ok;
+  }
+  return device.fail(
+      Status::InvalidArgument, VK_SUCCESS,
+      "TableDesc has solver %u, format %u, mie %u and quality %u, but these enumerations end at "
+      "%u, %u, %u and %u.",
+      static_cast<uint32_t>(desc.solver), static_cast<uint32_t>(desc.format),
+      static_cast<uint32_t>(desc.mie), static_cast<uint32_t>(desc.quality),
+      static_cast<uint32_t>(Solver::Standard), static_cast<uint32_t>(TableFormat::Float),
+      static_cast<uint32_t>(MieStorage::Packed), static_cast<uint32_t>(Quality::Ultra));
+}
+
+// What belongs to the other solver must be left at its default: it would do nothing.
+Status checkCombination(const engine::Device& device, const TableDesc& desc) {
+  const auto refuse = [&device](const char* solver, const char* given) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "TableDesc has Solver::%s and %s, but that belongs to the other solver: "
+                       "leave it at its default.",
+                       solver, given);
+  };
+  if (desc.solver == Solver::Moments) {
+    if (desc.mie == MieStorage::Packed) return refuse("Moments", "MieStorage::Packed");
+    if (anyGiven(desc.sizes, &TableSizes::transmittanceMu)) return refuse("Moments", "TableSizes");
+  } else {
+    if (desc.quality != Quality::Default) return refuse("Standard", "a Quality");
+    if (anyGiven(desc.moments, &MomentSettings::depthMu))
+      return refuse("Standard", "MomentSettings");
+  }
+  return Status::Ok;
+}
+
+Status checkSettings(const engine::Device& device, const MomentSettings& s, bool zeroIsDefault) {
+  const Size sizes[] = {
+      {"depthMu", s.depthMu, 2, 4096},        {"depthH", s.depthH, 2, 4096},
+      {"nodesR", s.nodesR, 2, 256},           {"nodesMuS", s.nodesMuS, 2, 512},
+      {"ringsSky", s.ringsSky, 2, 256},       {"ringsLimb", s.ringsLimb, 2, 256},
+      {"ringsGround", s.ringsGround, 2, 256}, {"azimuths", s.azimuths, 2, 128},
+      {"degree", s.degree, 2, kMaxDegree},    {"sourceTheta", s.sourceTheta, 2, 256},
+      {"sourcePhi", s.sourcePhi, 2, 256},     {"solverPanels", s.solverPanels, 2, 256},
+      {"viewPanels", s.viewPanels, 2, 256}};
+  return checkRanges(device, "moment setting", sizes, zeroIsDefault);
+}
+
+Status checkStandardSizes(const engine::Device& device, const TableSizes& s) {
+  const uint32_t most2D = device.limits().maxImageDimension2D;
+  const uint32_t most3D = device.limits().maxImageDimension3D;
+  const Size sizes[] = {{"transmittanceMu", s.transmittanceMu, 2, most2D},
+                        {"transmittanceR", s.transmittanceR, 2, most2D},
+                        {"irradianceMuS", s.irradianceMuS, 2, most2D},
+                        {"irradianceR", s.irradianceR, 2, most2D},
+                        {"scatteringR", s.scatteringR, 2, most3D},
+                        {"scatteringMu", s.scatteringMu, 4, most3D},
+                        {"scatteringMuS", s.scatteringMuS, 2, most3D},
+                        {"scatteringNu", s.scatteringNu, 2, most3D}};
+  const Status status = checkRanges(device, "table size", sizes, false);
+  if (status != Status::Ok) return status;
+  if (s.scatteringMu % 2 != 0) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "The table size scatteringMu is %u, but must be even: half of its texels "
+                       "look at the ground, half at the sky.",
+                       s.scatteringMu);
+  }
+  if (uint64_t(s.scatteringMuS) * s.scatteringNu > most3D) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "The table sizes scatteringMuS %u times scatteringNu %u are %llu texels "
+                       "side by side, but this device's 3D images end at %u.",
+                       s.scatteringMuS, s.scatteringNu,
+                       static_cast<unsigned long long>(uint64_t(s.scatteringMuS) * s.scatteringNu),
+                       most3D);
+  }
+  const uint64_t side = uint64_t(s.scatteringMuS) * s.scatteringR;
+  if (side > most2D) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "The table sizes scatteringMuS %u times scatteringR %u are %llu rows of a "
+                       "bake, but this device's 2D images end at %u.",
+                       s.scatteringMuS, s.scatteringR, static_cast<unsigned long long>(side),
+                       most2D);
+  }
+  return Status::Ok;
+}
+
+}  // namespace
+
+TableDesc completed(const TableDesc& desc) {
+  TableDesc full = desc;
+  if (desc.solver != Solver::Standard) return full;
+  const TableSizes defaults = defaultTableSizes();
+  const uint32_t* from = &defaults.transmittanceMu;
+  uint32_t* to = &full.sizes.transmittanceMu;
+  static_assert(sizeof(TableSizes) % sizeof(uint32_t) == 0);
+  for (size_t i = 0; i < sizeof(TableSizes) / sizeof(uint32_t); ++i)
+    if (to[i] == 0) to[i] = from[i];
+  if (full.orders == 0) full.orders = 5;
+  return full;
+}
+
+Status checkTableDesc(const engine::Device& device, const TableDesc& desc) {
+  Status status = checkEnumerations(device, desc);
+  if (status == Status::Ok) status = checkCombination(device, desc);
+  if (status == Status::Ok) status = checkSettings(device, desc.moments, true);
+  if (status != Status::Ok) return status;
+  if (desc.orders > kMaxOrders) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "TableDesc::orders is %u, but must be from 1 to %u, or 0 for the default.",
+                       desc.orders, kMaxOrders);
+  }
+  if (desc.solver == Solver::Moments) {
+    return device.fail(Status::Unsupported, VK_SUCCESS,
+                       "TableDesc has Solver::Moments, but this version bakes Solver::Standard "
+                       "only.");
+  }
+  return Status::Ok;
+}
+
+Status checkSizes(const engine::Device& device, const TableDesc& desc) {
+  return checkStandardSizes(device, desc.sizes);
+}
+
+}  // namespace alpenglow::bake
