@@ -60,9 +60,10 @@ Status Tables::recordBake(VkCommandBuffer commands, const FrameInfo& frame, uint
   if (currentPass_ < passCount) {
     const bake::Pass& pass = plan_.passes[currentPass_];
     const bake::Stage& stage = plan_.stages[pass.stage];
-    const uint64_t rowsWanted =
-        budget == 0 ? stage.rows : budget / std::max<uint64_t>(stage.unitsPerRow(), 1);
-    const uint64_t tiles = std::clamp<uint64_t>(rowsWanted / bake::kTileRows, 1, 65535);
+    const uint64_t tilesLeft = (stage.rows - currentRow_ + bake::kTileRows - 1) / bake::kTileRows;
+    const uint64_t tilesWanted =
+        budget / std::max<uint64_t>(stage.unitsPerRow() * bake::kTileRows, 1);
+    const uint64_t tiles = std::clamp<uint64_t>(budget == 0 ? tilesLeft : tilesWanted, 1, 65535);
     const uint32_t endRow = static_cast<uint32_t>(
         std::min<uint64_t>(stage.rows, currentRow_ + tiles * bake::kTileRows));
     const Status status = recordPass(commands, pass, currentRow_, endRow);

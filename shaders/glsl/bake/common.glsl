@@ -1,10 +1,7 @@
-// What every bake shader shares: bindings, table reads and the tile it works on. A tile is a range of
-// rows: row = y for a 2D table, y + height * z for a 3D one; an invocation makes one texel.
-// ALPENGLOW_STORAGE is the format qualifier of the tables (rgba16f or rgba32f).
+// What the shaders of the standard solver share: bindings and table reads. ALPENGLOW_STORAGE is the format
+// qualifier of the tables (rgba16f or rgba32f).
+#include "tile.glsl"
 
-layout(local_size_x = 8, local_size_y = 8) in;
-
-layout(constant_id = 0) const bool kFirstOrder = false;
 layout(constant_id = 1) const bool kMiePacked = false;
 #define ALPENGLOW_FIRST_ORDER kFirstOrder
 #define ALPENGLOW_MIE_PACKED kMiePacked
@@ -35,21 +32,7 @@ layout(set = 0, binding = 0, std140) uniform Atmosphere {
   TableShape shape;
 };
 
-layout(push_constant) uniform Tile {
-  uint firstRow;
-  uint endRow;
-  uint width;
-  uint height;
-};
-
 #include "physics/standard.glsl"
-
-// Texel of this invocation, or z = -1 outside the tile.
-ivec3 tileTexel() {
-  uint row = firstRow + gl_GlobalInvocationID.y;
-  bool outside = row >= endRow || gl_GlobalInvocationID.x >= width;
-  return outside ? ivec3(-1) : ivec3(gl_GlobalInvocationID.x, row % height, row / height);
-}
 
 // The ray that a texel of S stands for. The horizon is decided by the half of the table, never again.
 struct ScatteringTexel {
