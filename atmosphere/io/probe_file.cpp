@@ -92,6 +92,57 @@ const ProbeAnswer& valueOf(const ReferenceAnswer& answer) { return answer.value;
 const ProbeAnswer* errorOf(const ProbeAnswer&) { return nullptr; }
 const ProbeAnswer* errorOf(const ReferenceAnswer& answer) { return &answer.standardError; }
 
+void readRadiances(ObjectReader* reader, ProbeAnswer* out) {
+  out->transmittance = reader->spectrum("transmittance");
+  out->skyRadiance = reader->spectrum("sky_radiance");
+  out->groundRadiance = reader->spectrum("ground_radiance");
+}
+
+void readIrradiances(ObjectReader* reader, ProbeAnswer* out) {
+  out->direct = reader->spectrum("direct");
+  out->sky = reader->spectrum("sky");
+}
+
+ReferenceAnswer irradianceAnswer(JsonErrors* errors, const Json& value, const std::string& suffix) {
+  ReferenceAnswer answer;
+  ObjectReader reader(errors, value, "", suffix, {"id", "direct", "sky", "standard_error"});
+  readIrradiances(&reader, &answer.value);
+  if (errors->ok() && reader.given("standard_error")) {
+    ObjectReader error(errors, value["standard_error"], "standard_error.", suffix,
+                       {"direct", "sky"});
+    readIrradiances(&error, &answer.standardError);
+  }
+  return answer;
+}
+
+ReferenceAnswer rayAnswer(JsonErrors* errors, const Json& value, const std::string& suffix) {
+  ReferenceAnswer answer;
+  ObjectReader reader(
+      errors, value, "", suffix,
+      {"id", "hits_ground", "transmittance", "sky_radiance", "ground_radiance", "standard_error"});
+  const Json& hit = reader.required("hits_ground");
+  if (errors->ok() && !hit.is_boolean()) reader.wrong("hits_ground", "true or false");
+  if (!errors->ok()) return answer;
+  answer.value.hitsGround = hit.get<bool>();
+  readRadiances(&reader, &answer.value);
+  if (errors->ok() && reader.given("standard_error")) {
+    ObjectReader error(errors, value["standard_error"], "standard_error.", suffix,
+                       {"transmittance", "sky_radiance", "ground_radiance"});
+    readRadiances(&error, &answer.standardError);
+  }
+  return answer;
+}
+
+ReferenceAnswer answerFromJson(JsonErrors* errors, const Json& value, const NamedQuery& named) {
+  const std::string suffix = " of the answer to query '" + named.id + "'";
+  if (!value.is_object() || !value.contains("id") || value["id"] != named.id) {
+    errors->add("the answer to query '" + named.id + "' is not where it was expected.");
+    return {};
+  }
+  return named.query.irradiance ? irradianceAnswer(errors, value, suffix)
+                                : rayAnswer(errors, value, suffix);
+}
+
 template <typename Answer>
 Result<std::string> format(const std::vector<NamedQuery>& queries,
                            const std::vector<Answer>& answers) {
@@ -154,6 +205,35 @@ Result<std::string> formatAnswers(const std::vector<NamedQuery>& queries,
 Result<std::string> formatAnswers(const std::vector<NamedQuery>& queries,
                                   const std::vector<ReferenceAnswer>& answers) {
   return format(queries, answers);
+}
+
+Result<std::vector<ReferenceAnswer>> parseAnswers(const std::string& text, const std::string& name,
+                                                  const std::vector<NamedQuery>& queries) {
+  using Answers = Result<std::vector<ReferenceAnswer>>;
+  const Result<Json> value = parseJson(text, name);
+  if (!value) return Answers::failure(value.error);
+  JsonErrors errors{name, {}};
+  ObjectReader reader(&errors, *value, "", "", {"answers"});
+  std::vector<ReferenceAnswer> answers;
+  if (errors.ok()) {
+    const Json& list = reader.required("answers");
+    if (errors.ok() && (!list.is_array() || list.size() != queries.size())) {
+      reader.wrong("answers",
+                   "an array of " + std::to_string(queries.size()) + ", one answer for each query");
+    }
+    for (size_t i = 0; errors.ok() && i < list.size(); ++i) {
+      answers.push_back(answerFromJson(&errors, list[i], queries[i]));
+    }
+  }
+  if (!errors.ok()) return Answers::failure(errors.first);
+  return answers;
+}
+
+Result<std::vector<ReferenceAnswer>> readAnswers(const std::string& path,
+                                                 const std::vector<NamedQuery>& queries) {
+  const Result<std::string> text = readFile(path, kMaxJsonBytes);
+  if (!text) return Result<std::vector<ReferenceAnswer>>::failure(text.error);
+  return parseAnswers(*text, path, queries);
 }
 
 }  // namespace alpenglow::io

@@ -204,8 +204,12 @@ Estimate groundRadiance(const Medium& medium, const SunlitRay& ray, const Estima
   return result;
 }
 
+}  // namespace
+
 /// Queries in degrees come as rounded radians, so the nadir may exceed pi by a bit.
-bool isZenithAngle(double angle) { return angle >= 0.0 && angle <= std::numbers::pi * (1 + 1e-15); }
+static bool isZenithAngle(double angle) {
+  return angle >= 0.0 && angle <= std::numbers::pi * (1 + 1e-15);
+}
 
 bool isValid(const ProbeQuery& query) {
   const bool common =
@@ -214,8 +218,6 @@ bool isValid(const ProbeQuery& query) {
          (query.irradiance || (isZenithAngle(query.viewZenith) && std::isfinite(query.azimuth) &&
                                std::isfinite(query.distance_m)));
 }
-
-}  // namespace
 
 ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, double tolerance) {
   ReferenceAnswer answer;

@@ -10,8 +10,15 @@ namespace alpenglow::reference {
 /// What referenceSingleScattering() returns to its users.
 inline constexpr double kRelativeTolerance = 1e-9;
 
+/// Whether a probe file may hold this query: finite numbers, no negative altitude, zenith angles
+/// from 0 to 180 degrees.
+bool isValid(const ProbeQuery& query);
+
 /// Single scattering for a valid query, each value to about `tolerance` times itself.
 ReferenceAnswer singleScattering(const physics_f64::Medium& medium, const ProbeQuery& query,
                                  double tolerance);
+
+/// alpenglow::bandSunElevation() of a valid query.
+double bandSunElevation(const physics_f64::Medium& medium, const ProbeQuery& query);
 
 }  // namespace alpenglow::reference

@@ -27,4 +27,11 @@ Result<std::string> formatAnswers(const std::vector<NamedQuery>& queries,
 Result<std::string> formatAnswers(const std::vector<NamedQuery>& queries,
                                   const std::vector<ReferenceAnswer>& answers);
 
+/// Answers as a file holds them: `standardError` is zero where the file has none.
+Result<std::vector<ReferenceAnswer>> readAnswers(const std::string& path,
+                                                 const std::vector<NamedQuery>& queries);
+/// Fails unless the text has one answer of the right kind for each query, in the same order.
+Result<std::vector<ReferenceAnswer>> parseAnswers(const std::string& text, const std::string& name,
+                                                  const std::vector<NamedQuery>& queries);
+
 }  // namespace alpenglow::io

@@ -1,0 +1,40 @@
+// Which sun the error of a query is judged by.
+#include <alpenglow/reference.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "atmosphere/model/query.h"
+#include "atmosphere/reference/single_scattering.h"
+
+namespace alpenglow {
+namespace reference {
+
+double bandSunElevation(const physics_f64::Medium& medium, const ProbeQuery& query) {
+  double muS = std::cos(query.sunZenith);
+  if (!query.irradiance && query.altitude_m > medium.thickness) {
+    ProbeQuery whole = query;
+    whole.distance_m = -1.0;
+    const ResolvedQuery resolved = resolveQuery(medium, whole);
+    if (!resolved.empty) {
+      const physics_f64::Ray& ray = resolved.ray;
+      const double lowest = -physics_f64::radiusAt(medium, ray.h) * ray.mu;
+      const double t = ray.hitsGround ? ray.extent : std::clamp(lowest, 0.0, ray.extent);
+      const double h = ray.hitsGround ? 0.0 : physics_f64::altitudeAt(medium, ray.h, ray.mu, t);
+      muS = physics_f64::muSAt(medium, ray.h, ray.muS, ray.nu, t, h);
+    }
+  }
+  return std::asin(std::clamp(muS, -1.0, 1.0));
+}
+
+}  // namespace reference
+
+inline namespace v1 {
+
+double bandSunElevation(const Parameters& parameters, const ProbeQuery& query) {
+  if (!reference::isValid(query) || validate(parameters, nullptr, 0) != Status::Ok) return 0.0;
+  return reference::bandSunElevation(makeMediumF64(parameters), query);
+}
+
+}  // namespace v1
+}  // namespace alpenglow
