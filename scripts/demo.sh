@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Builds the program, bakes the sample atmospheres at the paper's table sizes and renders every
-# sample scene into out/. Ends with a table of what took how long.
+# Builds the program, bakes the sample atmospheres with the defaults and renders every sample scene
+# into out/. Ends with a table of what took how long.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

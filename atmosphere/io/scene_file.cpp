@@ -1,6 +1,7 @@
 #include <alpenglow/io/atmosphere_file.h>
 #include <alpenglow/io/file.h>
 #include <alpenglow/io/scene_file.h>
+#include <alpenglow/io/table_file.h>
 
 #include <filesystem>
 
@@ -111,20 +112,24 @@ std::optional<double> readExposure(ObjectReader* reader) {
   return std::nullopt;
 }
 
+// Null leaves each to its default.
+void readTableChoices(ObjectReader* reader, Scene* scene) {
+  if (reader->given("solver")) {
+    scene->solver = findSolver(solverNames()[reader->choice("solver", solverNames())]);
+  }
+  if (reader->given("orders")) scene->orders = reader->integer("orders", 1, kMaxOrders);
+  if (reader->given("quality")) {
+    scene->quality = findQuality(qualityNames()[reader->choice("quality", qualityNames())]);
+  }
+}
+
 // Fields whose other values belong to features that this version doesn't have.
-void readLaterFeatures(JsonErrors* errors, ObjectReader* reader, Scene* scene) {
+void readLaterFeatures(JsonErrors* errors, ObjectReader* reader) {
   if (reader->given("terrain")) {
     reader->wrong("terrain", "null, because this version draws no terrain");
   }
-  if (reader->given("quality")) {
-    reader->wrong("quality", "null, because this version has no quality levels");
-  }
   reader->choice("model", {"bruneton"});
   reader->choice("shafts", {"auto", "off"});
-  if (reader->given("solver")) {
-    reader->choice("solver", {"standard"});
-    scene->solver = Solver::Standard;
-  }
   if (reader->has("effects")) {
     ObjectReader effects(errors, reader->required("effects"), "effects.", "", {"light_shafts"});
     effects.choice("light_shafts", {"auto", "off"});
@@ -153,8 +158,8 @@ Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& fo
   readSize(errors, &reader, &scene);
   scene.exposure = readExposure(&reader);
   scene.toneMap = static_cast<ToneMap>(reader.choice("tone_map", toneMapNames()));
-  if (reader.given("orders")) scene.orders = reader.integer("orders", 1, kMaxOrders);
-  readLaterFeatures(errors, &reader, &scene);
+  readTableChoices(&reader, &scene);
+  readLaterFeatures(errors, &reader);
   return scene;
 }
 

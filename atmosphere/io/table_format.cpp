@@ -10,7 +10,8 @@
 namespace alpenglow::io {
 namespace {
 
-constexpr uint32_t kDefaultOrders = 5;
+constexpr uint32_t kDefaultOrders = 5;  // Of the standard solver.
+constexpr uint32_t kMomentLayers = 5;   // Of TableId::Moments, below each other.
 // The headers of a file stand at its start; the digits are never further in than this.
 constexpr size_t kMaxHeaderBytes = size_t{1} << 20;
 
@@ -39,6 +40,85 @@ TablePart scatteringPart(const TableDesc& desc, const std::string& name) {
           sizes.scatteringR,
           desc.format,
           {}};
+}
+
+TablePart momentsPart(const TableDesc& desc, const std::string& name) {
+  const MomentSettings& m = desc.moments;
+  return {name, m.nodesMuS, m.nodesR * kMomentLayers, 1, desc.format, {}};
+}
+
+TablePart sourcePart(const TableDesc& desc, const std::string& name) {
+  const MomentSettings& m = desc.moments;
+  return {name, m.sourceTheta * m.sourcePhi, m.nodesMuS, m.nodesR, desc.format, {}};
+}
+
+Done checkTexels(const std::string& what, std::initializer_list<uint32_t> sides) {
+  uint64_t texels = 1;
+  for (const uint32_t side : sides) texels *= side;  // At most kMaxTableSide^4, which fits.
+  if (texels <= kMaxTableTexels) return {};
+  return {"The size " + what + " has " + std::to_string(texels) + " texels; at most " +
+          std::to_string(kMaxTableTexels) + " are allowed."};
+}
+
+Done checkMomentSizes(const MomentSettings& m) {
+  Done done = checkMomentSettings(m);
+  if (done) done = checkTexels("of the optical depth", {m.depthMu, m.depthH});
+  if (done) done = checkTexels("of the moments", {m.nodesMuS, m.nodesR, kMomentLayers});
+  if (done) done = checkTexels("of the source", {m.sourceTheta, m.sourcePhi, m.nodesMuS, m.nodesR});
+  return done;
+}
+
+Done checkStandardSizes(const TableSizes& s) {
+  const std::pair<const char*, uint32_t> sides[] = {
+      {"mu of the transmittance", s.transmittanceMu}, {"r of the transmittance", s.transmittanceR},
+      {"mu_s of the irradiance", s.irradianceMuS},    {"r of the irradiance", s.irradianceR},
+      {"r of the scattering", s.scatteringR},         {"mu of the scattering", s.scatteringMu},
+      {"mu_s of the scattering", s.scatteringMuS},    {"nu of the scattering", s.scatteringNu}};
+  for (const auto& [name, size] : sides) {
+    if (size < 2 || size > kMaxTableSide) {
+      return {"The size " + std::to_string(size) + " for " + name +
+              " is out of bounds; it must be from 2 to " + std::to_string(kMaxTableSide) + "."};
+    }
+  }
+  if (s.scatteringMu < 4 || s.scatteringMu % 2 != 0) {
+    return {"The size " + std::to_string(s.scatteringMu) +
+            " for mu of the scattering must be even and at least 4."};
+  }
+  return checkTexels(scatteringSizeText(s) + " of the scattering",
+                     {s.scatteringR, s.scatteringMu, s.scatteringMuS, s.scatteringNu});
+}
+
+std::vector<TablePart> momentParts(const TableDesc& desc) {
+  const MomentSettings& m = desc.moments;
+  return {{"optical_depth", m.depthMu, m.depthH, 1, desc.format, {}},
+          momentsPart(desc, "moments"),
+          sourcePart(desc, "source")};
+}
+
+std::vector<TablePart> standardParts(const TableDesc& desc) {
+  const TableSizes& sizes = desc.sizes;
+  std::vector<TablePart> parts = {
+      {"optical_depth", sizes.transmittanceMu, sizes.transmittanceR, 1, desc.format, {}},
+      irradiancePart(desc, "irradiance"),
+      scatteringPart(desc, "scattering")};
+  if (desc.mie == MieStorage::Full) parts.push_back(scatteringPart(desc, "single_mie"));
+  return parts;
+}
+
+std::optional<TablePart> partOfOrder(const TableDesc& desc, const std::string& name,
+                                     uint32_t order) {
+  const std::string suffix = "_order_" + std::to_string(order);
+  if (desc.solver == Solver::Moments) {
+    // The light of an order is solved for the source of the next. The last one's isn't needed.
+    const bool last = order == desc.orders;
+    if (name == "moments" + suffix && !last) return momentsPart(desc, name);
+    if (name == "source" + suffix && order > 1) return sourcePart(desc, name);
+    return std::nullopt;
+  }
+  if (name == "irradiance" + suffix) return irradiancePart(desc, name);
+  if (name == "scattering" + suffix) return scatteringPart(desc, name);
+  if (order == 1 && name == "single_mie" + suffix) return scatteringPart(desc, name);
+  return std::nullopt;
 }
 
 OIIO::TypeDesc typeOf(TableFormat format) {
@@ -80,57 +160,37 @@ const TablePart* TableFile::find(const std::string& name) const {
   return nullptr;
 }
 
-TableDesc resolved(TableDesc desc) {
+TableDesc resolved(TableDesc desc, const Parameters& parameters) {
+  if (desc.solver == Solver::Moments) {
+    if (desc.quality == Quality::Default) desc.quality = Quality::Medium;
+    desc.moments = momentSettings(parameters, desc.quality, desc.moments);
+    return desc;
+  }
   fillZeros(&desc.sizes);
   if (desc.orders == 0) desc.orders = kDefaultOrders;
   return desc;
 }
 
 Done checkSizes(const TableDesc& desc) {
-  const TableSizes& s = desc.sizes;
-  const std::pair<const char*, uint32_t> sides[] = {
-      {"mu of the transmittance", s.transmittanceMu}, {"r of the transmittance", s.transmittanceR},
-      {"mu_s of the irradiance", s.irradianceMuS},    {"r of the irradiance", s.irradianceR},
-      {"r of the scattering", s.scatteringR},         {"mu of the scattering", s.scatteringMu},
-      {"mu_s of the scattering", s.scatteringMuS},    {"nu of the scattering", s.scatteringNu}};
-  for (const auto& [name, size] : sides) {
-    if (size < 2 || size > kMaxTableSide) {
-      return {"The size " + std::to_string(size) + " for " + name +
-              " is out of bounds; it must be from 2 to " + std::to_string(kMaxTableSide) + "."};
-    }
-  }
-  if (s.scatteringMu < 4 || s.scatteringMu % 2 != 0) {
-    return {"The size " + std::to_string(s.scatteringMu) +
-            " for mu of the scattering must be even and at least 4."};
-  }
-  const uint64_t texels =
-      uint64_t{s.scatteringR} * s.scatteringMu * s.scatteringMuS * s.scatteringNu;
-  if (texels > kMaxTableTexels) {
-    return {"The size " + scatteringSizeText(s) + " of the scattering has " +
-            std::to_string(texels) + " texels; at most " + std::to_string(kMaxTableTexels) +
-            " are allowed."};
-  }
-  return {};
+  return desc.solver == Solver::Moments ? checkMomentSizes(desc.moments)
+                                        : checkStandardSizes(desc.sizes);
 }
 
 std::vector<TablePart> expectedParts(const TableDesc& desc) {
-  const TableSizes& sizes = desc.sizes;
-  std::vector<TablePart> parts = {
-      {"optical_depth", sizes.transmittanceMu, sizes.transmittanceR, 1, desc.format, {}},
-      irradiancePart(desc, "irradiance"),
-      scatteringPart(desc, "scattering")};
-  if (desc.mie == MieStorage::Full) parts.push_back(scatteringPart(desc, "single_mie"));
-  return parts;
+  return desc.solver == Solver::Moments ? momentParts(desc) : standardParts(desc);
 }
 
 std::optional<TablePart> orderPart(const TableDesc& desc, const std::string& name) {
-  for (uint32_t order = 1; order <= desc.orders; ++order) {
-    const std::string suffix = "_order_" + std::to_string(order);
-    if (name == "irradiance" + suffix) return irradiancePart(desc, name);
-    if (name == "scattering" + suffix) return scatteringPart(desc, name);
-    if (order == 1 && name == "single_mie" + suffix) return scatteringPart(desc, name);
+  const uint32_t orders = desc.orders == 0 ? kMaxOrders : desc.orders;  // 0: as many as it took.
+  for (uint32_t order = 1; order <= orders; ++order) {
+    if (std::optional<TablePart> part = partOfOrder(desc, name, order)) return part;
   }
   return std::nullopt;
+}
+
+bool mayHaveFormat(const TablePart& part, const TableDesc& desc) {
+  if (part.format == desc.format || part.name == "optical_depth") return true;
+  return part.name.rfind("moments", 0) == 0;
 }
 
 size_t expectedBytes(const TablePart& part) {

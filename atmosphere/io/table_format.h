@@ -16,6 +16,8 @@ inline constexpr const char* kAtmosphereAttribute = "alpenglow:atmosphere";
 inline constexpr const char* kSolverAttribute = "alpenglow:solver";
 inline constexpr const char* kOrdersAttribute = "alpenglow:orders";
 inline constexpr const char* kTexelsAttribute = "alpenglow:texels";
+inline constexpr const char* kQualityAttribute = "alpenglow:quality";
+inline constexpr const char* kMomentsAttribute = "alpenglow:moments";
 inline constexpr const char* kMieAttribute = "alpenglow:mie";
 inline constexpr const char* kTransmittanceAttribute = "alpenglow:size_transmittance";
 inline constexpr const char* kIrradianceAttribute = "alpenglow:size_irradiance";
@@ -30,13 +32,15 @@ std::optional<size_t> findChecksum(const std::string& bytes);
 /// are the same afterwards.
 std::string checksum(std::string* bytes, size_t digits);
 
+/// Empty, or a sentence about the first setting that is not from 2 to kMaxTableSide or kMaxDegree.
+Done checkMomentSettings(const MomentSettings& settings);
+
 /// Bytes that the texels of a part must have.
 size_t expectedBytes(const TablePart& part);
 
-/// Whether a part may have its format: that of the description, except for the optical depth.
-inline bool mayHaveFormat(const TablePart& part, const TableDesc& desc) {
-  return part.format == desc.format || part.name == "optical_depth";
-}
+/// Whether a part may have its format: that of the description, except for those that are float
+/// wherever the device allows.
+bool mayHaveFormat(const TablePart& part, const TableDesc& desc);
 
 /// Shape of a part of a single order, without texels; none when no order's part has this name.
 std::optional<TablePart> orderPart(const TableDesc& desc, const std::string& name);

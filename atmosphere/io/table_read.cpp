@@ -22,8 +22,8 @@ Failed refuse(const std::string& path, const std::string& why) {
   return Failed::failure("The table file '" + path + "' " + why + ".");
 }
 
-// Fills parameters and description from the attributes; empty, or what is wrong.
-std::string readDescription(const OIIO::ImageSpec& spec, TableFile* file) {
+// Each fills its share of a file from the attributes; empty, or what is wrong.
+std::string readOrigin(const OIIO::ImageSpec& spec) {
   const int format = spec.get_int_attribute(kFormatAttribute, -1);
   if (format != kTableFileFormat) {
     return "has format " + std::to_string(format) + "; this version reads format " +
@@ -34,32 +34,68 @@ std::string readDescription(const OIIO::ImageSpec& spec, TableFile* file) {
     return "was baked by version '" + oneLine(version) +
            "'; this is version " ALPENGLOW_VERSION_STRING ", so bake it again";
   }
-  TableDesc& desc = file->desc;
-  const std::string solver = spec.get_string_attribute(kSolverAttribute);
-  if (solver != "standard") return "names the unknown solver '" + oneLine(solver) + "'";
-  const int orders = spec.get_int_attribute(kOrdersAttribute, -1);
-  if (orders < 1 || orders > 1000) return "holds " + std::to_string(orders) + " orders";
-  desc.orders = static_cast<uint32_t>(orders);
-  const std::string texels = spec.get_string_attribute(kTexelsAttribute);
-  if (texels != "half" && texels != "float")
-    return "names the unknown format '" + oneLine(texels) + "'";
-  desc.format = texels == "half" ? TableFormat::Half : TableFormat::Float;
+  return {};
+}
+
+std::string readStandard(const OIIO::ImageSpec& spec, TableDesc* desc) {
   const std::string mie = spec.get_string_attribute(kMieAttribute);
   if (mie != "full" && mie != "packed")
     return "names the unknown Mie storage '" + oneLine(mie) + "'";
-  desc.mie = mie == "full" ? MieStorage::Full : MieStorage::Packed;
-  if (!parseTransmittanceSize(spec.get_string_attribute(kTransmittanceAttribute), &desc.sizes) ||
-      !parseIrradianceSize(spec.get_string_attribute(kIrradianceAttribute), &desc.sizes) ||
-      !parseScatteringSize(spec.get_string_attribute(kScatteringAttribute), &desc.sizes)) {
+  desc->mie = mie == "full" ? MieStorage::Full : MieStorage::Packed;
+  if (!parseTransmittanceSize(spec.get_string_attribute(kTransmittanceAttribute), &desc->sizes) ||
+      !parseIrradianceSize(spec.get_string_attribute(kIrradianceAttribute), &desc->sizes) ||
+      !parseScatteringSize(spec.get_string_attribute(kScatteringAttribute), &desc->sizes)) {
     return "doesn't say the sizes of its tables";
   }
-  if (const Done done = checkSizes(desc); !done) return "is refused: " + oneLine(done.error);
+  return {};
+}
+
+std::string readMoments(const OIIO::ImageSpec& spec, TableDesc* desc) {
+  const std::string quality = spec.get_string_attribute(kQualityAttribute);
+  const std::optional<Quality> found = findQuality(quality);
+  if (!found) return "names the unknown quality '" + oneLine(quality) + "'";
+  desc->quality = *found;
+  const Done done =
+      parseMomentSettings(spec.get_string_attribute(kMomentsAttribute), &desc->moments);
+  return done ? "" : "is refused: " + oneLine(done.error);
+}
+
+std::string readDescription(const OIIO::ImageSpec& spec, TableDesc* desc) {
+  const std::string solver = spec.get_string_attribute(kSolverAttribute);
+  const std::optional<Solver> found = findSolver(solver);
+  if (!found) return "names the unknown solver '" + oneLine(solver) + "'";
+  desc->solver = *found;
+  const int orders = spec.get_int_attribute(kOrdersAttribute, -1);
+  const int least = desc->solver == Solver::Moments ? 0 : 1;
+  if (orders < least || orders > static_cast<int>(kMaxOrders)) {
+    return "holds " + std::to_string(orders) + " orders";
+  }
+  desc->orders = static_cast<uint32_t>(orders);
+  const std::string texels = spec.get_string_attribute(kTexelsAttribute);
+  if (texels != "half" && texels != "float")
+    return "names the unknown format '" + oneLine(texels) + "'";
+  desc->format = texels == "half" ? TableFormat::Half : TableFormat::Float;
+  std::string why =
+      desc->solver == Solver::Moments ? readMoments(spec, desc) : readStandard(spec, desc);
+  if (!why.empty()) return why;
+  const Done done = checkSizes(*desc);
+  return done ? "" : "is refused: " + oneLine(done.error);
+}
+
+std::string readParameters(const OIIO::ImageSpec& spec, Parameters* parameters) {
   const Result<Json> atmosphere =
       parseJson(spec.get_string_attribute(kAtmosphereAttribute), "its atmosphere");
   JsonErrors errors{"its atmosphere", {}};
-  if (atmosphere) file->parameters = atmosphereFromJson(&errors, *atmosphere, "");
+  if (atmosphere) *parameters = atmosphereFromJson(&errors, *atmosphere, "");
   const std::string problem = atmosphere ? errors.first : atmosphere.error;
   return problem.empty() ? "" : "is refused: " + oneLine(problem);
+}
+
+std::string readAttributes(const OIIO::ImageSpec& spec, TableFile* file) {
+  std::string why = readOrigin(spec);
+  if (why.empty()) why = readDescription(spec, &file->desc);
+  if (why.empty()) why = readParameters(spec, &file->parameters);
+  return why;
 }
 
 // Compares a part's header with its expected shape, so that nothing is allocated for a wrong one.
@@ -101,7 +137,7 @@ Failed decode(const std::string& path, const std::string& bytes, bool orders) {
   MemoryInput memory(bytes, "openexr");
   if (!memory.input) return refuse(path, "can't be opened: " + memory.error);
   TableFile file;
-  if (std::string why = readDescription(memory.input->spec(), &file); !why.empty()) {
+  if (std::string why = readAttributes(memory.input->spec(), &file); !why.empty()) {
     return refuse(path, why);
   }
   int index = 0;

@@ -24,13 +24,18 @@ void describe(const TableFile& file, OIIO::ImageSpec* spec) {
   spec->attribute(kFormatAttribute, kTableFileFormat);
   spec->attribute(kVersionAttribute, ALPENGLOW_VERSION_STRING);
   spec->attribute(kAtmosphereAttribute, atmosphereToJson(file.parameters).dump());
-  spec->attribute(kSolverAttribute, "standard");
+  spec->attribute(kSolverAttribute, solverName(desc.solver));
   spec->attribute(kOrdersAttribute, static_cast<int>(desc.orders));
   spec->attribute(kTexelsAttribute, desc.format == TableFormat::Half ? "half" : "float");
-  spec->attribute(kMieAttribute, desc.mie == MieStorage::Full ? "full" : "packed");
-  spec->attribute(kTransmittanceAttribute, transmittanceSizeText(desc.sizes));
-  spec->attribute(kIrradianceAttribute, irradianceSizeText(desc.sizes));
-  spec->attribute(kScatteringAttribute, scatteringSizeText(desc.sizes));
+  if (desc.solver == Solver::Moments) {
+    spec->attribute(kQualityAttribute, qualityName(desc.quality));
+    spec->attribute(kMomentsAttribute, momentSettingsText(desc.moments));
+  } else {
+    spec->attribute(kMieAttribute, desc.mie == MieStorage::Full ? "full" : "packed");
+    spec->attribute(kTransmittanceAttribute, transmittanceSizeText(desc.sizes));
+    spec->attribute(kIrradianceAttribute, irradianceSizeText(desc.sizes));
+    spec->attribute(kScatteringAttribute, scatteringSizeText(desc.sizes));
+  }
   spec->attribute(kChecksumAttribute, std::string(kChecksumDigits, '0'));
 }
 
@@ -58,6 +63,9 @@ std::vector<OIIO::ImageSpec> specsOf(const TableFile& file) {
 
 Done checkParts(const TableFile& file) {
   if (Done done = checkSizes(file.desc); !done) return done;
+  if (file.desc.solver == Solver::Moments && file.desc.quality == Quality::Default) {
+    return {"A table file names its level of quality, but this description has none."};
+  }
   std::vector<TablePart> expected = expectedParts(file.desc);
   for (size_t i = expected.size(); i < file.parts.size(); ++i) {
     const std::optional<TablePart> order = orderPart(file.desc, file.parts[i].name);

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <functional>
 
+#include "failure.h"
+
 namespace alpenglow::cli {
 namespace {
 
@@ -30,7 +32,9 @@ Check oneOf(std::vector<std::string> values) {
 
 Check sizeBy(bool (*parse)(const std::string&, TableSizes*), const char* shape) {
   return [parse, shape](const std::string& text) {
-    TableDesc desc = io::resolved({});
+    TableDesc desc;
+    desc.solver = Solver::Standard;
+    desc = io::resolved(desc, {});
     if (!parse(text, &desc.sizes)) {
       return "'" + text + "' is not of the form " + shape + " with whole numbers from 2 to " +
              std::to_string(io::kMaxTableSide);
@@ -39,6 +43,13 @@ Check sizeBy(bool (*parse)(const std::string&, TableSizes*), const char* shape) 
     if (!error.empty()) error.pop_back();  // The full stop; more is put around it.
     return error;
   };
+}
+
+std::string checkMoments(const std::string& text) {
+  MomentSettings ignored;
+  std::string error = io::parseMomentSettings(text, &ignored).error;
+  if (!error.empty()) error.pop_back();
+  return error;
 }
 
 std::string checkOrders(const std::string& text) {
@@ -71,12 +82,34 @@ void parsePictureSize(const std::string& text, uint32_t* width, uint32_t* height
 
 const char* TableArguments::firstTableOption() const {
   if (solver) return "--solver";
+  if (quality) return "--quality";
+  if (moments) return "--moments";
   if (sizeTransmittance) return "--size-transmittance";
   if (sizeIrradiance) return "--size-irradiance";
   if (sizeScattering) return "--size-scattering";
   if (format) return "--format";
   if (mie) return "--mie";
   return keepOrders ? "--keep-orders" : nullptr;
+}
+
+void TableArguments::checkBelongTo(Solver chosen, const std::string& why) const {
+  const std::pair<const char*, const std::optional<std::string>*> ofMoments[] = {
+      {"--quality", &quality}, {"--moments", &moments}};
+  const std::pair<const char*, const std::optional<std::string>*> ofStandard[] = {
+      {"--size-transmittance", &sizeTransmittance},
+      {"--size-irradiance", &sizeIrradiance},
+      {"--size-scattering", &sizeScattering},
+      {"--mie", &mie}};
+  const auto check = [&](const auto& options, Solver owner) {
+    for (const auto& [name, value] : options) {
+      if (chosen == owner || !*value) continue;
+      throw Failure(std::string(name) + " " + **value + " belongs to the solver " +
+                        io::solverName(owner) + ", but " + why + ".",
+                    Failure::kUsage);
+    }
+  };
+  check(ofMoments, Solver::Moments);
+  check(ofStandard, Solver::Standard);
 }
 
 void addTableOptions(CLI::App* command, const std::string& keepOrdersHelp,
@@ -88,22 +121,29 @@ void addTableOptions(CLI::App* command, const std::string& keepOrdersHelp,
         ->check(std::move(check))
         ->group("Tables");
   };
-  add("--solver", &arguments->solver, "standard", "How the tables are solved (default standard)",
-      oneOf({"standard"}));
-  add("--orders", &arguments->orders, "N", "Most events of a path, 1 to 1000 (default 5)",
-      checkOrders);
+  add("--solver", &arguments->solver, "standard|moments",
+      "How the tables are solved (default moments)", oneOf(io::solverNames()));
+  add("--orders", &arguments->orders, "N",
+      "Most events of a path, 1 to 1000 (default: all; of standard 5)", checkOrders);
+  add("--quality", &arguments->quality, "LEVEL",
+      "Of moments: draft, low, medium, high or ultra (default medium)", oneOf(io::qualityNames()));
+  add("--moments", &arguments->moments, "KEY=N[,KEY=N...]",
+      "Of moments: single settings in place of the level's, such as nodesR=24,degree=16",
+      checkMoments);
   add("--size-transmittance", &arguments->sizeTransmittance, "MUxR",
-      "Texels of the transmittance (default 256x64)", sizeBy(io::parseTransmittanceSize, "MUxR"));
+      "Of standard: texels of the transmittance (default 256x64)",
+      sizeBy(io::parseTransmittanceSize, "MUxR"));
   add("--size-irradiance", &arguments->sizeIrradiance, "MUSxR",
-      "Texels of the irradiance (default 64x16)", sizeBy(io::parseIrradianceSize, "MUSxR"));
+      "Of standard: texels of the irradiance (default 64x16)",
+      sizeBy(io::parseIrradianceSize, "MUSxR"));
   add("--size-scattering", &arguments->sizeScattering, "RxMUxMUSxNU",
-      "Texels of the scattering (default 32x128x32x8)",
+      "Of standard: texels of the scattering (default 32x128x32x8)",
       sizeBy(io::parseScatteringSize, "RxMUxMUSxNU"));
+  add("--mie", &arguments->mie, "full|packed",
+      "Of standard: single Mie scattering in three channels or in one (default full)",
+      oneOf({"full", "packed"}));
   add("--format", &arguments->format, "half|float", "Numbers of the tables (default half)",
       oneOf({"half", "float"}));
-  add("--mie", &arguments->mie, "full|packed",
-      "Single Mie scattering in three channels or in one (default full)",
-      oneOf({"full", "packed"}));
   command->add_flag("--keep-orders", arguments->keepOrders, keepOrdersHelp)->group("Tables");
 }
 

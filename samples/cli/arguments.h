@@ -14,6 +14,8 @@ namespace alpenglow::cli {
 struct TableArguments {
   std::optional<std::string> solver;
   std::optional<std::string> orders;
+  std::optional<std::string> quality;
+  std::optional<std::string> moments;
   std::optional<std::string> sizeTransmittance;
   std::optional<std::string> sizeIrradiance;
   std::optional<std::string> sizeScattering;
@@ -24,6 +26,9 @@ struct TableArguments {
 
   /// The name of the first option about what tables hold that was given, for sentences.
   const char* firstTableOption() const;
+  /// Throws a usage Failure when an option of the other solver was given; `why` is the clause that
+  /// says why it is this one, such as "--solver standard was given".
+  void checkBelongTo(Solver chosen, const std::string& why) const;
 };
 
 /// Where the work runs and what is written about it.

@@ -12,7 +12,8 @@ void runBake(const BakeArguments& arguments) {
   const io::AtmosphereSource source = take(io::findAtmosphereOrScene(arguments.atmosphere));
   io::TableFile file;
   file.parameters = source.parameters;
-  file.desc = describeTables(arguments.tables, source.scene ? &*source.scene : nullptr);
+  file.desc =
+      describeTables(arguments.tables, source.parameters, source.scene ? &*source.scene : nullptr);
   check(io::checkReplaceable(arguments.run.output));  // A table file is sealed after writing.
   checkOutputs(arguments.run);
   Session session(arguments.run.device, kCapabilityBake);

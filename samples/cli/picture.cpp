@@ -174,14 +174,15 @@ io::LinearImage readPicture(Session* session, const PictureTarget& target) {
 }  // namespace
 
 io::LinearImage drawScene(Session* session, const io::Scene& scene, const io::AlbedoMap* albedo,
-                          const Tables* tables, MieStorage mie, const PictureTarget& target) {
+                          const ReadyTables& ready, const PictureTarget& target) {
   const Sampler sampler(session);
   headless::Image albedoImage;
   ViewDesc desc;
   desc.colorFormat = kPictureFormat;
   desc.projection = scene.camera.projection;
-  desc.mie = mie;
-  desc.skySlice = tables;
+  desc.solver = ready.desc.solver;
+  desc.mie = ready.desc.mie;
+  desc.skySlice = ready.tables.get();
   if (albedo != nullptr) {
     albedoImage = uploadAlbedo(session, *albedo);
     desc.groundAlbedo = {albedoImage.view(), sampler.get(), kSampled.layout,
@@ -191,7 +192,8 @@ io::LinearImage drawScene(Session* session, const io::Scene& scene, const io::Al
   session->check(createView(session->context(), desc, &made));
   const ViewPointer view(made, ViewDeleter{session});
   session->run([&](VkCommandBuffer commands) {
-    recordPicture(session, commands, target.image, view.get(), tables, describeDraw(scene));
+    recordPicture(session, commands, target.image, view.get(), ready.tables.get(),
+                  describeDraw(scene));
     return "sky";
   });
   return readPicture(session, target);

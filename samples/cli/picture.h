@@ -5,12 +5,13 @@
 #include <alpenglow/io/scene_file.h>
 
 #include "picture_target.h"
+#include "tables.h"
 
 namespace alpenglow::cli {
 
 /// Draws into `target`, which has the scene's size: linear radiance for the atmosphere's solar
 /// irradiance. `albedo` may be null. Throws a Failure.
 io::LinearImage drawScene(Session* session, const io::Scene& scene, const io::AlbedoMap* albedo,
-                          const Tables* tables, MieStorage mie, const PictureTarget& target);
+                          const ReadyTables& ready, const PictureTarget& target);
 
 }  // namespace alpenglow::cli

@@ -37,8 +37,8 @@ void runRender(const RenderArguments& arguments) {
   Session session(arguments.run.device, bake | kCapabilitySky);
   const PictureTarget target = createPictureTarget(&session, scene.width, scene.height);
   const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
-  const io::LinearImage image = drawScene(&session, scene, albedo ? &*albedo : nullptr,
-                                          ready.tables.get(), ready.desc.mie, target);
+  const io::LinearImage image =
+      drawScene(&session, scene, albedo ? &*albedo : nullptr, ready, target);
   writePicture(output, scene, image);
   if (!arguments.run.report.empty()) {
     writeText(arguments.run.report, io::formatReport(session.report()));

@@ -9,9 +9,10 @@
 
 namespace alpenglow::cli {
 
-/// The description that options ask for, over the scene's if there is one; no zero is left. Throws
-/// a Failure for sizes out of bounds.
-TableDesc describeTables(const TableArguments& arguments, const io::Scene* scene);
+/// The description that options ask for, over the scene's if there is one, resolved. Throws a
+/// Failure for sizes out of bounds and for options of the other solver.
+TableDesc describeTables(const TableArguments& arguments, const Parameters& parameters,
+                         const io::Scene* scene);
 
 /// Bakes in slices with a progress bar. With `kept`, desc.keepOrders must be set; each order's
 /// tables are appended to it.
@@ -21,22 +22,19 @@ TablesPointer bakeTables(Session* session, const Parameters& parameters, const T
 /// Copies the finished tables to the host, in the order of a table file.
 std::vector<io::TablePart> readTables(Session* session, Tables* tables, const TableDesc& desc);
 
-/// What --tables asks for: the file, which must be for these parameters and agree with the options
-/// that were given. Throws a Failure.
-io::TableFile loadTableFile(const TableArguments& arguments, const Parameters& parameters,
-                            const io::Scene* scene);
-
 /// Tables ready for use, and what they are.
 struct ReadyTables {
   TablesPointer tables;
   TableDesc desc;
 };
 
-/// What render and probe want, checked before there is a device: a description, or a loaded file.
+/// What render and probe want, checked before there is a device: a description, or the file that
+/// --tables names, which is for these parameters and agrees with the options that were given.
 struct TableRequest {
   TableDesc desc;
   std::optional<io::TableFile> file;
 };
+/// Throws a Failure.
 TableRequest requestTables(const TableArguments& arguments, const Parameters& parameters,
                            const io::Scene* scene);
 ReadyTables obtainTables(Session* session, const Parameters& parameters, TableRequest request);

@@ -53,7 +53,8 @@ TEST_F(Program, ASceneFileIsAnAtmosphereToo) {
   const std::string scene = folder_.write(
       "scene.json",
       R"({"atmosphere": "mars", "sun": {"elevation_deg": 1}, "camera": {}, "orders": 3})");
-  expectGood({"bake", scene, "-o", folder_ / "t.exr", "--size-scattering", "4x8x8x2"});
+  expectGood({"bake", scene, "-o", folder_ / "t.exr", "--solver", "standard", "--size-scattering",
+              "4x8x8x2"});
   const io::Result<io::TableFile> file = io::readTableFile(folder_ / "t.exr");
   ASSERT_TRUE(file) << file.error;
   Parameters mars;
@@ -70,7 +71,7 @@ TEST_F(Program, ANameWinsOverAFileOfTheSameName) {
   folder_.write("earth", mars.out);
   const auto bake = [&](const std::string& name) {
     const std::string command = "cd " + folder_.path() + " && " + program + " bake " + name +
-                                " -o t.exr --orders 1 --size-scattering 4x8x8x2";
+                                " -o t.exr --solver standard --orders 1 --size-scattering 4x8x8x2";
     EXPECT_EQ(std::system(command.c_str()), 0);
     return io::readTableFile(folder_ / "t.exr")->parameters.bottomRadius_m;
   };

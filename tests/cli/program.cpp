@@ -67,14 +67,28 @@ Outcome runProgram(const std::vector<std::string>& arguments,
 }
 
 const std::vector<std::string>& smallTables() {
+  static const std::vector<std::string> kOptions = {"--solver",
+                                                    "standard",
+                                                    "--orders",
+                                                    "2",
+                                                    "--size-scattering",
+                                                    "4x8x8x2",
+                                                    "--size-irradiance",
+                                                    "16x4",
+                                                    "--size-transmittance",
+                                                    "64x16"};
+  return kOptions;
+}
+
+const std::vector<std::string>& smallMoments() {
   static const std::vector<std::string> kOptions = {
-      "--orders",          "2",    "--size-scattering",    "4x8x8x2",
-      "--size-irradiance", "16x4", "--size-transmittance", "64x16"};
+      "--quality", "draft", "--moments",
+      "depthMu=32,depthH=16,nodesR=6,nodesMuS=12,degree=4,azimuths=4,sourceTheta=12,sourcePhi=4"};
   return kOptions;
 }
 
 const std::vector<std::string>& endlessTables() {
-  static const std::vector<std::string> kOptions = {"--orders", "1000"};
+  static const std::vector<std::string> kOptions = {"--solver", "standard", "--orders", "1000"};
   return kOptions;
 }
 

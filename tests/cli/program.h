@@ -27,8 +27,10 @@ Outcome runProgram(const std::vector<std::string>& arguments,
 /// practices, of which there is always something to say.
 std::vector<std::string> validated(bool advice);
 
-/// Options that make bakes take a fraction of a second.
+/// Options that make bakes of the standard solver take a fraction of a second.
 const std::vector<std::string>& smallTables();
+/// The same of the moment solver.
+const std::vector<std::string>& smallMoments();
 /// Options that make them take hours: what is refused with these is refused before the bake.
 const std::vector<std::string>& endlessTables();
 std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b);

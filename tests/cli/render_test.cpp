@@ -134,8 +134,8 @@ TEST_F(Render, SampleScenesAreFoundByName) {
 
 TEST_F(Render, BadScenesAreNamed) {
   expectRefused(renderOf(scene(R"(, "weather": 1)"), "a.png"), {"scene.json", "'weather'"});
-  expectRefused(renderOf(scene(R"(, "solver": "moments")"), "a.png"), {"'solver'", "moments"});
-  expectRefused(renderOf(scene(R"(, "quality": "medium")"), "a.png"), {"'quality'"});
+  expectRefused(renderOf(scene(R"(, "solver": "exact")"), "a.png"), {"'solver'", "exact"});
+  expectRefused(renderOf(scene(R"(, "quality": "best")"), "a.png"), {"'quality'", "best"});
   expectRefused(renderOf(scene(R"(, "ground": {"albedo_map": "none.jpg"})"), "a.png"),
                 {"none.jpg"});
   expectRefused(renderOf(scene(R"(, "ground": {"albedo_map": "scene.json"})"), "a.png"),

@@ -17,7 +17,7 @@ const char* const kFull = R"({ "atmosphere": "earth",
               "projection": "perspective", "fov_deg": 50 },
   "ground": { "albedo_map": "data/earth.jpg" },
   "terrain": null, "size": [640, 480], "exposure": 2.5, "tone_map": "linear",
-  "model": "bruneton", "solver": "standard", "orders": 3, "shafts": "auto",
+  "model": "bruneton", "solver": "standard", "orders": 3, "quality": "high", "shafts": "auto",
   "effects": { "light_shafts": "auto" } }
 )";
 const char* const kLeast =
@@ -60,6 +60,7 @@ TEST(SceneFile, ReadsEveryField) {
   EXPECT_EQ(scene->toneMap, ToneMap::Linear);
   EXPECT_EQ(scene->solver, Solver::Standard);
   EXPECT_EQ(scene->orders, 3u);
+  EXPECT_EQ(scene->quality, Quality::High);
 }
 
 TEST(SceneFile, TheRestHasDefaults) {
@@ -71,6 +72,7 @@ TEST(SceneFile, TheRestHasDefaults) {
   EXPECT_EQ(scene->toneMap, ToneMap::Filmic);
   EXPECT_FALSE(scene->orders.has_value());
   EXPECT_FALSE(scene->solver.has_value());
+  EXPECT_FALSE(scene->quality.has_value());
   EXPECT_TRUE(scene->albedoMap.empty());
   EXPECT_EQ(scene->camera.altitude_m, 2.0);
   EXPECT_DOUBLE_EQ(scene->camera.fov, 60 * kRadians);
@@ -121,14 +123,29 @@ TEST(SceneFile, RefusesWrongValuesByName) {
 TEST(SceneFile, FeaturesOfLaterVersionsAreRefusedWithWhatExists) {
   expectMentions(errorOf(with("terrain", "{}")), {"'terrain'", "no terrain"});
   expectMentions(errorOf(with("model", "\"preetham\"")), {"'model'", "\"bruneton\""});
-  expectMentions(errorOf(with("solver", "\"moments\"")), {"'solver'", "\"standard\""});
-  expectMentions(errorOf(with("quality", "\"medium\"")), {"'quality'", "\"medium\""});
   expectMentions(errorOf(with("shafts", "\"volumes\"")), {"'shafts'", "\"off\""});
   expectMentions(errorOf(with("effects", "{\"light_shafts\": \"on\"}")),
                  {"'effects.light_shafts'", "\"on\""});
   EXPECT_TRUE(parseScene(with("shafts", "\"off\""), "s.json", ""));
   EXPECT_TRUE(parseScene(with("effects", "{\"light_shafts\": \"off\"}"), "s.json", ""));
-  EXPECT_TRUE(parseScene(with("quality", "null"), "s.json", ""));
+}
+
+TEST(SceneFile, SolverAndQualityHaveTheirNames) {
+  const auto scene = [](const char* field, const char* value) {
+    const Result<Scene> result = parseScene(with(field, value), "s.json", "");
+    EXPECT_TRUE(result) << result.error;
+    return result ? *result : Scene{};
+  };
+  EXPECT_EQ(scene("solver", "\"moments\"").solver, Solver::Moments);
+  EXPECT_EQ(scene("solver", "\"standard\"").solver, Solver::Standard);
+  EXPECT_FALSE(scene("solver", "null").solver.has_value());
+  EXPECT_EQ(scene("quality", "\"draft\"").quality, Quality::Draft);
+  EXPECT_EQ(scene("quality", "\"ultra\"").quality, Quality::Ultra);
+  EXPECT_FALSE(scene("quality", "null").quality.has_value());
+  expectMentions(errorOf(with("solver", "\"exact\"")),
+                 {"'solver'", "\"exact\"", "\"moments\" or \"standard\""});
+  expectMentions(errorOf(with("quality", "\"best\"")), {"'quality'", "\"best\"", "\"draft\""});
+  expectMentions(errorOf(with("quality", "3")), {"'quality'", "3"});
 }
 
 TEST(SceneFile, TheAtmosphereIsAPresetAFileOrInline) {

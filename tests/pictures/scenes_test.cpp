@@ -34,7 +34,8 @@ class Tables {
     std::string& path = paths_[atmosphere];
     if (path.empty()) {
       path = folder_ / (atmosphere + ".exr");
-      runGood({"bake", atmosphere, "-o", path, "--orders", "3", "--size-scattering", "16x64x32x8"});
+      runGood({"bake", atmosphere, "-o", path, "--solver", "standard", "--orders", "3",
+               "--size-scattering", "16x64x32x8"});
     }
     return path;
   }

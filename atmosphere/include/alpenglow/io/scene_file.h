@@ -41,6 +41,7 @@ struct Scene {
   ToneMap toneMap = ToneMap::Filmic;
   std::optional<Solver> solver;    ///< None: the default.
   std::optional<uint32_t> orders;  ///< None: the solver's default.
+  std::optional<Quality> quality;  ///< Of Solver::Moments; none: the default.
 };
 
 /// Most pixels along a side of a picture.
