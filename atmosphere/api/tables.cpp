@@ -39,7 +39,7 @@ Status createTables(Context* context, const Parameters& parameters, const TableD
     return context->device->fail(Status::InvalidArgument, VK_SUCCESS, "%s", message);
   Status status = bake::checkTableDesc(*context->device, desc);
   if (status != Status::Ok) return status;
-  const TableDesc full = bake::completed(desc);
+  const TableDesc full = bake::completed(parameters, desc);
   status = bake::checkSizes(*context->device, full);
   if (status != Status::Ok) return status;
   const bool bakes = (context->capabilities & kCapabilityBake) != 0;

@@ -119,9 +119,12 @@ Status checkStandardSizes(const engine::Device& device, const TableSizes& s) {
 
 }  // namespace
 
-TableDesc completed(const TableDesc& desc) {
+TableDesc completed(const Parameters& parameters, const TableDesc& desc) {
   TableDesc full = desc;
-  if (desc.solver != Solver::Standard) return full;
+  if (desc.solver == Solver::Moments) {
+    full.moments = momentSettings(parameters, desc.quality, desc.moments);
+    return full;
+  }
   const TableSizes defaults = defaultTableSizes();
   const uint32_t* from = &defaults.transmittanceMu;
   uint32_t* to = &full.sizes.transmittanceMu;
@@ -142,16 +145,18 @@ Status checkTableDesc(const engine::Device& device, const TableDesc& desc) {
                        "TableDesc::orders is %u, but must be from 1 to %u, or 0 for the default.",
                        desc.orders, kMaxOrders);
   }
-  if (desc.solver == Solver::Moments) {
-    return device.fail(Status::Unsupported, VK_SUCCESS,
-                       "TableDesc has Solver::Moments, but this version bakes Solver::Standard "
-                       "only.");
-  }
   return Status::Ok;
 }
 
 Status checkSizes(const engine::Device& device, const TableDesc& desc) {
-  return checkStandardSizes(device, desc.sizes);
+  if (desc.solver == Solver::Standard) return checkStandardSizes(device, desc.sizes);
+  const MomentSettings& s = desc.moments;
+  if (2 * s.azimuths > s.degree) return Status::Ok;
+  return device.fail(
+      Status::InvalidArgument, VK_SUCCESS,
+      "The moment setting azimuths is %u, but must be above half the degree, which is "
+      "%u.",
+      s.azimuths, s.degree);
 }
 
 }  // namespace alpenglow::bake

@@ -26,7 +26,10 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
   ++resources.liveTables;
   Status status = Status::Ok;
   try {
-    tables->plan_ = bake::standardPlan(parameters, desc, bake::finestFormat(device, desc.format));
+    tables->plan_ =
+        desc.solver == Solver::Moments
+            ? bake::momentPlan(parameters, desc)
+            : bake::standardPlan(parameters, desc, bake::finestFormat(device, desc.format));
     for (const bake::Pass& pass : tables->plan_.passes) {
       const bake::Stage& stage = tables->plan_.stages[pass.stage];
       tables->unitsTotal_ += stage.unitsPerRow() * stage.rows;

@@ -68,6 +68,10 @@ TEST_F(TableErrorsTest, WrongMomentSettingsAreRefusedByName) {
   desc.moments = {};
   desc.moments.viewPanels = 1;
   expectRefused(desc, "viewPanels is 1");
+  desc.moments = {};
+  desc.moments.azimuths = 8;
+  desc.moments.degree = 16;
+  expectRefused(desc, "azimuths is 8, but must be above half the degree, which is 16");
 }
 
 TEST_F(TableErrorsTest, WrongParametersAreRefusedInTheValidatorsWords) {

@@ -1,5 +1,5 @@
-// The precomputed tables of an atmosphere, baked in slices into the host's command buffers: those of
-// the moment solver, or T, E and S of Bruneton & Neyret 2008.
+// The precomputed tables of an atmosphere, baked in slices into the host's command buffers: those
+// of the moment solver, or T, E and S of Bruneton & Neyret 2008.
 #pragma once
 
 #include <alpenglow/context.h>
@@ -34,13 +34,13 @@ TableSizes defaultTableSizes();
 
 /// Resolution of the moment solver. 0 means what momentSettings() says.
 struct MomentSettings {
-  uint32_t depthMu = 0, depthH = 0;      ///< Texels of the table of optical depths.
-  uint32_t nodesR = 0, nodesMuS = 0;     ///< Where the field is solved.
-  uint32_t ringsSky = 0;                 ///< Zenith angles of incoming light above the horizontal;
-  uint32_t ringsLimb = 0;                ///< between it and the horizon;
-  uint32_t ringsGround = 0;              ///< below the horizon.
-  uint32_t azimuths = 0;                 ///< Over half a turn.
-  uint32_t degree = 0;                   ///< Of the spherical harmonics, at most kMaxDegree.
+  uint32_t depthMu = 0, depthH = 0;   ///< Texels of the table of optical depths.
+  uint32_t nodesR = 0, nodesMuS = 0;  ///< Where the field is solved.
+  uint32_t ringsSky = 0;              ///< Zenith angles of incoming light above the horizontal;
+  uint32_t ringsLimb = 0;             ///< between it and the horizon;
+  uint32_t ringsGround = 0;           ///< below the horizon.
+  uint32_t azimuths = 0;              ///< Over half a turn.
+  uint32_t degree = 0;                ///< Of the spherical harmonics, at most kMaxDegree.
   uint32_t sourceTheta = 0, sourcePhi = 0;  ///< Directions of the table of sources.
   uint32_t solverPanels = 0;  ///< Panels of 2 points for each smooth stretch of a ray: of the bake,
   uint32_t viewPanels = 0;    ///< and of a ray that is looked along.
@@ -61,8 +61,8 @@ struct TableDesc {
   TableSizes sizes;                    ///< Of Solver::Standard.
 };
 
-/// The settings that a quality level has for an atmosphere, by the rule of docs/accuracy.md, with what
-/// `custom` gives in place of it. Pure; thread-safe.
+/// The settings that a quality level has for an atmosphere, by the rule of docs/accuracy.md, with
+/// what `custom` gives in place of it. Pure; thread-safe.
 MomentSettings momentSettings(const Parameters& parameters, Quality quality,
                               const MomentSettings& custom);
 
@@ -99,16 +99,16 @@ Status recordBake(Tables* tables, VkCommandBuffer commands, const FrameInfo& fra
                   BakeProgress* progress);
 
 enum class TableId : uint32_t {
-  OpticalDepth,     ///< ln(1 + 1e5 tau), T = exp(-tau) towards the top: x mu, y r. Either solver.
-  Moments,          ///< Mean radiance, its second moments and E, five tables below each other: x mu_s,
-                    ///< y r (shaders/glsl/physics/field.glsl). Moments; the next as well.
-  Source,           ///< Light that aerosols scatter, as a ratio: x theta + thetas phi, y mu_s, z r.
-  Irradiance,       ///< E of the sky on the ground, per unit solar irradiance: x mu_s, y r. Standard;
-                    ///< the next two as well.
-  Scattering,       ///< S: C_* = S_R[L0] + S[L_*] / P_R, alpha C_M first channel if packed.
-  SingleMie,        ///< C_M = S_M[L0] / P_M; only with MieStorage::Full.
-  OrderMoments,     ///< Moments of the order just finished. Moments.
-  OrderSource,      ///< Source of the order after the one just finished. Moments.
+  OpticalDepth,  ///< ln(1 + 1e5 tau), T = exp(-tau) towards the top: x mu, y r. Either solver.
+  Moments,       ///< Mean radiance, its second moments and E, five tables below each other: x mu_s,
+                 ///< y r (shaders/glsl/physics/field.glsl). Moments; the next as well.
+  Source,        ///< Light that aerosols scatter, as a ratio: x theta + thetas phi, y mu_s, z r.
+  Irradiance,    ///< E of the sky on the ground, per unit solar irradiance: x mu_s, y r. Standard;
+                 ///< the next two as well.
+  Scattering,    ///< S: C_* = S_R[L0] + S[L_*] / P_R, alpha C_M first channel if packed.
+  SingleMie,     ///< C_M = S_M[L0] / P_M; only with MieStorage::Full.
+  OrderMoments,  ///< Moments of the order just finished. Moments.
+  OrderSource,   ///< Source of the order after the one just finished. Moments.
   OrderIrradiance,  ///< dE of the order just finished (order 1: the sun's direct light).
   OrderScattering,  ///< dS of the order just finished (order 1: Rayleigh, without phase).
   OrderSingleMie,   ///< Order 1 only: Mie, without phase function.
@@ -142,9 +142,9 @@ Status recordTableUpload(Tables* tables, VkCommandBuffer commands, const FrameIn
 /// True when the tables are baked or uploaded, so that views and probes may use them.
 bool tablesReady(const Tables* tables);
 
-/// The descriptor set that alpenglow/atmosphere.glsl binds: 0 uniform parameters, then of the moment
-/// solver 1 optical depth, 2 moments, 3 and 4 source; of the standard one 1 T, 2 E, 3 S, 4 single Mie
-/// (S again when packed). For compute and fragment stages. The images are in
+/// The descriptor set that alpenglow/atmosphere.glsl binds: 0 uniform parameters, then of the
+/// moment solver 1 optical depth, 2 moments, 3 and 4 source; of the standard one 1 T, 2 E, 3 S, 4
+/// single Mie (S again when packed). For compute and fragment stages. The images are in
 /// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL once ready. Owned by the context and the tables.
 VkDescriptorSetLayout tableSetLayout(const Context* context);
 VkDescriptorSet tableSet(const Tables* tables);

@@ -39,19 +39,6 @@ ALPENGLOW_FN Real2 nuSlice(IN(TableShape) shape, Real nu) {
   return Real2(lower / shape.scatteringNu, slice - lower);
 }
 
-// The table of T holds the logarithm of its optical depth tau, as ln(1 + tau / unit): never negative,
-// 0 where there is no air. Towards the horizon tau grows exponentially from texel to texel: with tau
-// itself in the table, order 1 at the horizon from 10 km was 15 % off; with its logarithm, 5 %.
-ALPENGLOW_FN Real opticalDepthUnit() { return REAL(1e-5); }
-
-ALPENGLOW_FN Spectrum encodeOpticalDepth(Spectrum depth) {
-  return log(SPECTRUM(REAL(1.0)) + depth / opticalDepthUnit());
-}
-
-ALPENGLOW_FN Spectrum decodeOpticalDepth(Spectrum stored) {
-  return (exp(stored) - SPECTRUM(REAL(1.0))) * opticalDepthUnit();
-}
-
 #ifdef ALPENGLOW_TABLE_READS
 
 // Optical depth towards the top, from the table, whatever is in the way.

@@ -122,3 +122,16 @@ ALPENGLOW_FN Spectrum opticalDepthToGround(IN(Medium) m, Real h, Real mu, Real d
   return exponentialDepth(m, h, mu, REAL(0.0), d, any_ ? 12 : 0) +
          tentDepthOfSide(m, h, mu, d, REAL(0.0), rise, REAL(-1.0), d, any_ ? 4 : 0);
 }
+
+// Tables hold the logarithm of its optical depth tau, as ln(1 + tau / unit): never negative,
+// 0 where there is no air. Towards the horizon tau grows exponentially from texel to texel: with tau
+// itself in the table, order 1 at the horizon from 10 km was 15 % off; with its logarithm, 5 %.
+ALPENGLOW_FN Real opticalDepthUnit() { return REAL(1e-5); }
+
+ALPENGLOW_FN Spectrum encodeOpticalDepth(Spectrum depth) {
+  return log(SPECTRUM(REAL(1.0)) + depth / opticalDepthUnit());
+}
+
+ALPENGLOW_FN Spectrum decodeOpticalDepth(Spectrum stored) {
+  return (exp(stored) - SPECTRUM(REAL(1.0))) * opticalDepthUnit();
+}

@@ -17,6 +17,10 @@
 
 #include "mapping.glsl"
 
+#include "field.glsl"
+
+#include "path.glsl"
+
 #include "tone_map.glsl"
 
 #endif

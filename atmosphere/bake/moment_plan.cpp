@@ -1,0 +1,315 @@
+#include <alpenglow/shaders/moment_depth.h>
+#include <alpenglow/shaders/moment_field.h>
+#include <alpenglow/shaders/moment_field_none.h>
+#include <alpenglow/shaders/moment_field_sum.h>
+#include <alpenglow/shaders/moment_harmonics.h>
+#include <alpenglow/shaders/moment_legendre.h>
+#include <alpenglow/shaders/moment_light.h>
+#include <alpenglow/shaders/moment_modes.h>
+#include <alpenglow/shaders/moment_rules.h>
+#include <alpenglow/shaders/moment_single.h>
+#include <alpenglow/shaders/moment_source_modes.h>
+#include <alpenglow/shaders/moment_source_none_rgba16f.h>
+#include <alpenglow/shaders/moment_source_none_rgba32f.h>
+#include <alpenglow/shaders/moment_source_rgba16f.h>
+#include <alpenglow/shaders/moment_source_rgba32f.h>
+#include <alpenglow/shaders/moment_source_sum_rgba16f.h>
+#include <alpenglow/shaders/moment_source_sum_rgba32f.h>
+
+#include <cstring>
+
+#include "atmosphere/bake/moment_shape.h"
+#include "atmosphere/bake/plan.h"
+
+namespace alpenglow::bake {
+namespace {
+
+/// kFineRings and kFineAzimuths of shaders/glsl/physics/moments.glsl.
+constexpr uint32_t kFineRings = 2, kFineAzimuths = 4;
+/// momentLayers() of shaders/glsl/physics/field.glsl.
+constexpr uint32_t kLayers = 5;
+
+/// Bindings of shaders/glsl/bake/moment_common.glsl.
+enum Binding : uint32_t {
+  kDepth = 1,
+  kField = 2,
+  kSource = 3,
+  kRadiance = 4,  ///< And the two next.
+  kModes = 4,
+  kMoments = 5,
+  kSourceModes = 6,
+  kRules = 7,
+  kLegendre = 8,
+  kSum = 4,
+  kLast = 5,
+  kBefore = 6,
+};
+
+struct MomentConstants {
+  physics_f32::Medium medium;
+  physics_f32::MomentShape shape;
+};
+static_assert(offsetof(MomentConstants, shape) % 16 == 0 && sizeof(MomentConstants) % 16 == 0);
+
+#define ALPENGLOW_SHADER(name) \
+  engine::Shader { shaders::name, sizeof shaders::name, #name }
+#define ALPENGLOW_FORMAT_SHADER(name) \
+  (half_ ? ALPENGLOW_SHADER(name##Half) : ALPENGLOW_SHADER(name##Float))
+
+/// Builds the plan; its members are the sizes and the images that several stages share.
+class Builder {
+ public:
+  Builder(const TableDesc& desc, uint32_t orders)
+      : c_(desc.moments),
+        half_(desc.format == TableFormat::Half),
+        orders_(orders),
+        nodes_(c_.nodesR * c_.nodesMuS),
+        rings_(c_.ringsSky + c_.ringsLimb + c_.ringsGround),
+        modesPerRing_(c_.degree + 1),
+        harmonics_((c_.degree + 1) * (c_.degree + 2) / 2) {}
+
+  SolverPlan build() {
+    addTables();
+    if (orders_ > 1) {
+      addPreparation();
+      addOrders();
+    }
+    addSums();
+    return std::move(plan_);
+  }
+
+ private:
+  uint32_t floats(const char* name, uint32_t width, uint32_t height, bool filtered) {
+    PlanImage image;
+    image.name = name;
+    image.extent = {width, height, 1};
+    image.format = VK_FORMAT_R32G32B32A32_SFLOAT;
+    image.filtered = filtered;
+    return plan_.addImage(image);
+  }
+
+  uint32_t sources(const char* name, VkFormat format) {
+    PlanImage image;
+    image.name = name;
+    image.type = VK_IMAGE_TYPE_3D;
+    image.extent = {c_.sourceTheta * c_.sourcePhi, c_.nodesMuS, c_.nodesR};
+    image.format = format;
+    return plan_.addImage(image);
+  }
+
+  static Stage stage(const engine::Shader& shader, uint32_t width, uint32_t height,
+                     uint64_t unitsPerTexel) {
+    Stage stage;
+    stage.shader = shader;
+    stage.width = width;
+    stage.height = stage.rows = height;
+    stage.unitsPerTexel = unitsPerTexel;
+    return stage;
+  }
+
+  void addTables() {
+    const VkFormat format = vulkanFormat(half_ ? TableFormat::Half : TableFormat::Float);
+    t_ = floats("Alpenglow optical depth", c_.depthMu, c_.depthH, true);
+    total_ = floats("Alpenglow moments", c_.nodesMuS, c_.nodesR * kLayers, true);
+    source_ = sources("Alpenglow source", format);
+    for (uint32_t image : {t_, total_, source_}) plan_.images[image].persistent = true;
+    plan_.tables = {
+        {TableId::OpticalDepth, t_}, {TableId::Moments, total_}, {TableId::Source, source_}};
+    const uint32_t bound[kBoundTables] = {t_, total_, source_, source_};
+    std::memcpy(plan_.bound, bound, sizeof bound);
+
+    Stage depth = stage(ALPENGLOW_SHADER(kMomentDepth), c_.depthMu, c_.depthH, 20);
+    depth.outputs = {{t_}};
+    plan_.addPass(plan_.addStage(depth), "T", 0);
+  }
+
+  // What every order uses, and the images that orders leave to each other.
+  void addPreparation() {
+    const uint32_t rows = rings_ * (1 + kFineRings) * c_.nodesR + c_.sourceTheta;
+    rules_ = floats("Alpenglow rules", rings_ * kFineRings, 2, false);
+    legendre_ = floats("Alpenglow Legendre", harmonics_, rows, false);
+    modes_ = floats("Alpenglow modes", modesPerRing_ * rings_ * kFineRings, nodes_, false);
+    moments_ = floats("Alpenglow harmonics", harmonics_, nodes_, false);
+    sourceModes_ = floats("Alpenglow source modes", modesPerRing_ * c_.sourceTheta, nodes_, false);
+    sum_ = floats("Alpenglow sum", c_.nodesMuS, c_.nodesR * kLayers, false);
+    // Two, by turns: an order reads the one of the order before.
+    for (uint32_t i = 0; i < (orders_ > 2 ? 2u : 1u); ++i) {
+      fields_[i] = floats("Alpenglow order", c_.nodesMuS, c_.nodesR * kLayers, true);
+      plain_[i] = floats("Alpenglow plain order", c_.nodesMuS, c_.nodesR * kLayers, false);
+    }
+    orderSource_ = sources("Alpenglow order source", plan_.images[source_].format);
+    sourceSum_ = sources("Alpenglow source sum", VK_FORMAT_R32G32B32A32_SFLOAT);
+    plan_.images[sourceSum_].filtered = false;
+    plan_.tables.push_back({TableId::OrderMoments, fields_[0]});
+    plan_.tables.push_back({TableId::OrderSource, orderSource_});
+
+    Stage rules = stage(ALPENGLOW_SHADER(kMomentRules), rings_ * kFineRings, 2,
+                        6 * kFineRings * (c_.ringsSky + c_.ringsGround));
+    rules.outputs = {{rules_}};
+    plan_.addPass(plan_.addStage(rules), "Q", 0);
+
+    Stage legendre = stage(ALPENGLOW_SHADER(kMomentLegendre), harmonics_, rows, c_.degree);
+    legendre.inputs = {{kRules, rules_}};
+    legendre.outputs = {{legendre_}};
+    plan_.addPass(plan_.addStage(legendre), "Y", 0);
+  }
+
+  // L 1: along a ray that is cut about twice, each of two nodes of a panel reads T twice.
+  uint32_t addSingle() {
+    const uint32_t width = c_.azimuths * rings_ * kFineRings;
+    for (uint32_t i = 0; i < 3; ++i)
+      single_[i] = floats("Alpenglow single scattering", width, nodes_, true);
+    Stage single =
+        stage(ALPENGLOW_SHADER(kMomentSingle), width, nodes_, uint64_t(c_.solverPanels) * 8);
+    // The text of a ray's light reads field and source too, where there are such: here it never
+    // does, but Vulkan asks for images.
+    single.inputs = {{kDepth, t_}, {kField, fields_[0]}, {kSource, orderSource_}, {kRules, rules_}};
+    single.outputs = {{single_[0]}, {single_[1]}, {single_[2]}};
+    return plan_.addStage(single);
+  }
+
+  // L n: each of the nodes reads the field four times and the source twice.
+  uint32_t addLight(uint32_t fieldBefore) {
+    const uint32_t width = c_.azimuths * rings_;
+    Stage light =
+        stage(ALPENGLOW_SHADER(kMomentLight), width, nodes_, uint64_t(c_.solverPanels) * 24);
+    light.inputs = {
+        {kDepth, t_}, {kField, fields_[fieldBefore]}, {kSource, orderSource_}, {kRules, rules_}};
+    light.outputs = {{light_}};
+    return plan_.addStage(light);
+  }
+
+  uint32_t addModes(bool first) {
+    const uint32_t fine = first ? kFineRings : 1;
+    // An invocation makes four modes.
+    Stage modes = stage(ALPENGLOW_SHADER(kMomentModes), (modesPerRing_ + 3) / 4 * rings_ * fine,
+                        nodes_, uint64_t(c_.azimuths) * (first ? 3 * kFineAzimuths : 1));
+    modes.constants[0] = first;
+    modes.inputs = {{kRules, rules_}};
+    for (uint32_t i = 0; i < (first ? 3u : 1u); ++i)
+      modes.inputs.push_back({kRadiance + i, first ? single_[i] : light_});
+    modes.outputs = {{modes_}};
+    return plan_.addStage(modes);
+  }
+
+  uint32_t addHarmonics(bool first) {
+    const uint32_t fine = first ? kFineRings : 1;
+    Stage harmonics =
+        stage(ALPENGLOW_SHADER(kMomentHarmonics), harmonics_, nodes_, uint64_t(rings_) * fine * 3);
+    harmonics.constants[0] = first;
+    harmonics.inputs = {{kModes, modes_}, {kRules, rules_}, {kLegendre, legendre_}};
+    harmonics.outputs = {{moments_}};
+    return plan_.addStage(harmonics);
+  }
+
+  uint32_t addSourceModes() {
+    Stage modes = stage(ALPENGLOW_SHADER(kMomentSourceModes), modesPerRing_ * c_.sourceTheta,
+                        nodes_, modesPerRing_);
+    modes.inputs = {{kMoments, moments_}, {kLegendre, legendre_}};
+    modes.outputs = {{sourceModes_}};
+    return plan_.addStage(modes);
+  }
+
+  uint32_t addField(bool first, uint32_t to) {
+    Stage field = stage(ALPENGLOW_SHADER(kMomentField), c_.nodesMuS, c_.nodesR,
+                        uint64_t(c_.ringsSky) * (first ? kFineRings : 1) * 2 + 4 * kLayers);
+    field.constants[0] = first;
+    field.inputs = {{kModes, modes_}, {kMoments, moments_}, {kRules, rules_}};
+    field.outputs = {{fields_[to]}, {plain_[to]}, {sum_, !first}};
+    field.finishes = {{TableId::OrderMoments, fields_[to]}};
+    return plan_.addStage(field);
+  }
+
+  uint32_t addSource(bool first, uint32_t from) {
+    const VkExtent3D& extent = plan_.images[orderSource_].extent;
+    Stage source = stage(ALPENGLOW_FORMAT_SHADER(kMomentSource), extent.width, extent.height,
+                         modesPerRing_ + 4);
+    source.rows *= extent.depth;
+    source.constants[0] = first;
+    source.inputs = {{kSourceModes, sourceModes_}, {kField, fields_[from]}};
+    source.outputs = {{orderSource_}, {sourceSum_, !first}};
+    source.finishes = {{TableId::OrderSource, orderSource_}};
+    return plan_.addStage(source);
+  }
+
+  // The light of orders 1 ... N - 1, and the sources 2 ... N that it makes.
+  void addOrders() {
+    struct Stages {
+      uint32_t light, modes, harmonics, field, source;
+    };
+    const uint32_t sourceModes = addSourceModes();
+    const Stages first = {addSingle(), addModes(true), addHarmonics(true), addField(true, 0),
+                          addSource(true, 0)};
+    Stages further[2] = {};
+    if (orders_ > 2) {
+      light_ = floats("Alpenglow light", c_.azimuths * rings_, nodes_, true);
+      const uint32_t modes = addModes(false), harmonics = addHarmonics(false);
+      for (uint32_t i = 0; i < (orders_ > 3 ? 2u : 1u); ++i) {
+        further[i] = {addLight(i), modes, harmonics, addField(false, 1 - i),
+                      addSource(false, 1 - i)};
+      }
+    }
+    for (uint32_t order = 1; order < orders_; ++order) {
+      const Stages& s = order == 1 ? first : further[order % 2];
+      plan_.addPass(s.light, "L", order);
+      plan_.addPass(s.modes, "F", order);
+      plan_.addPass(s.harmonics, "M", order);
+      plan_.addPass(sourceModes, "H", order);
+      plan_.addPass(s.field, "N", order);
+      plan_.addPass(s.source, "J", order + 1);
+    }
+  }
+
+  void addSums() {
+    const VkExtent3D& extent = plan_.images[source_].extent;
+    const bool none = orders_ == 1;
+    Stage field =
+        stage(none ? ALPENGLOW_SHADER(kMomentFieldNone) : ALPENGLOW_SHADER(kMomentFieldSum),
+              c_.nodesMuS, c_.nodesR, 4 * kLayers);
+    field.outputs = {{total_}};
+    Stage source = stage(none ? ALPENGLOW_FORMAT_SHADER(kMomentSourceNone)
+                              : ALPENGLOW_FORMAT_SHADER(kMomentSourceSum),
+                         extent.width, extent.height, 5);
+    source.rows *= extent.depth;
+    source.outputs = {{source_}};
+    if (!none) {
+      // Order n lies in field (n - 1) % 2, and the last is N - 1. If it is the only one, it stands
+      // for the order before too: there is no tail then that would ask for it.
+      const uint32_t last = orders_ % 2, before = orders_ > 2 ? 1 - last : last;
+      field.inputs = {{kSum, sum_}, {kLast, plain_[last]}, {kBefore, plain_[before]}};
+      source.inputs = {{kField, total_},
+                       {kSource, orderSource_},
+                       {kSum, sourceSum_},
+                       {kLast, plain_[last]},
+                       {kBefore, plain_[before]}};
+    }
+    plan_.addPass(plan_.addStage(field), "N sum", 0);
+    plan_.addPass(plan_.addStage(source), "J sum", 0);
+  }
+
+  MomentSettings c_;
+  bool half_;
+  uint32_t orders_, nodes_, rings_, modesPerRing_, harmonics_;
+  SolverPlan plan_;
+  uint32_t t_ = 0, total_ = 0, source_ = 0;
+  uint32_t rules_ = 0, legendre_ = 0, modes_ = 0, moments_ = 0, sourceModes_ = 0;
+  uint32_t single_[3] = {}, light_ = 0;
+  uint32_t fields_[2] = {}, plain_[2] = {}, sum_ = 0, orderSource_ = 0, sourceSum_ = 0;
+};
+
+#undef ALPENGLOW_SHADER
+#undef ALPENGLOW_FORMAT_SHADER
+
+}  // namespace
+
+SolverPlan momentPlan(const Parameters& parameters, const TableDesc& desc) {
+  SolverPlan plan = Builder(desc, solvedOrders(parameters, desc)).build();
+  MomentConstants constants = {};
+  constants.medium = makeMediumF32(parameters);
+  constants.shape = makeMomentShapeF32(parameters, desc);
+  plan.uniforms.resize(sizeof constants);
+  std::memcpy(plan.uniforms.data(), &constants, sizeof constants);
+  return plan;
+}
+
+}  // namespace alpenglow::bake

@@ -1,0 +1,127 @@
+// The light field of the moment solver: where its tables hold what. It is solved on nodes (r, mu_s); a
+// node keeps the mean radiance N, the second moments that Rayleigh scattering needs, the irradiance E, and
+// what aerosols scatter into each direction. All per unit solar irradiance.
+
+// Texels and the constants of the mappings, all computed in double by the bake
+// (atmosphere/bake/moment_shape.cpp). Laid out as std140 has it.
+struct MomentShape {
+  Real depthMu, depthH;    // texels of the table of optical depths
+  Real depthSharpness;     // c: u_mu = asinh(c mu) / asinh(c)
+  Real depthScale;         // a: u_h = asinh(h / a) / asinh(thickness / a), m
+  Real nodesR, nodesMuS;   // nodes
+  Real nodePower;          // p: h = thickness u^p
+  Real sunCenter, sunWidth;  // theta_s = center + width sinh(low + u range), radians
+  Real sunLow, sunRange;
+  Real sourceTheta, sourcePhi;  // directions of the table of sources
+  Real peakAsymmetry;      // of the shape G(nu) that the sources are stored relative to
+  Real peakShare;
+  Real ringsSky, ringsLimb, ringsGround;  // of incoming light, see ringMu
+  Real azimuths;
+  Real degree;             // of the spherical harmonics
+  Real solverPanels, viewPanels;
+  Real tail;               // 1: the orders that are not solved follow as a geometric series
+};
+
+// acos to float accuracy: the built-in one of GPUs and of lavapipe is off by up to 1e-4 rad.
+ALPENGLOW_FN Real arcCosine(Real x) {
+  Real a = abs(x);
+  bool wide = a > REAL(0.5);
+  Real z = wide ? REAL(0.5) * (REAL(1.0) - a) : a * a;
+  Real s = wide ? sqrt(z) : a;
+  Real p = ((((REAL(4.2163199048e-2) * z + REAL(2.4181311049e-2)) * z + REAL(4.5470025998e-2)) * z +
+             REAL(7.4953002686e-2)) * z + REAL(1.6666752422e-1)) * z * s + s;
+  Real positive = wide ? REAL(2.0) * p : REAL(0.5) * REAL(ALPENGLOW_PI) - p;
+  return x < REAL(0.0) ? REAL(ALPENGLOW_PI) - positive : positive;
+}
+
+// --- Optical depth towards the top, of rays that rise (mu >= 0): those that sink are differences and
+// sums of such (depthTowardsTop), which keeps the perigee exact.
+
+ALPENGLOW_FN Real2 depthUnit(IN(Medium) m, IN(MomentShape) s, Real h, Real mu) {
+  return Real2(asinh(s.depthSharpness * mu) / asinh(s.depthSharpness),
+               asinh(h / s.depthScale) / asinh(m.thickness / s.depthScale));
+}
+
+ALPENGLOW_FN Real2 depthHMu(IN(Medium) m, IN(MomentShape) s, Real2 u) {
+  return Real2(min(s.depthScale * sinh(u[1] * asinh(m.thickness / s.depthScale)), m.thickness),
+               min(sinh(u[0] * asinh(s.depthSharpness)) / s.depthSharpness, REAL(1.0)));
+}
+
+ALPENGLOW_FN Real2 depthCoordinate(IN(Medium) m, IN(MomentShape) s, Real h, Real mu) {
+  Real2 u = depthUnit(m, s, h, mu);
+  return Real2(insetCoordinate(u[0], s.depthMu), insetCoordinate(u[1], s.depthH));
+}
+
+// --- Nodes.
+
+// The table of moments holds five layers below each other: ln N, the second moments xx, zz and xz over
+// N, and ln E.
+ALPENGLOW_FN Real momentLayers() { return REAL(5.0); }
+
+// Below this a mean radiance or irradiance is dark: its logarithm is cut here, some 25 orders of magnitude
+// under a starlit night (per unit solar irradiance).
+ALPENGLOW_FN Real darkness() { return REAL(1e-30); }
+
+ALPENGLOW_FN Real nodeUnitR(IN(Medium) m, IN(MomentShape) s, Real h) {
+  return pow(clamp(h / m.thickness, REAL(0.0), REAL(1.0)), REAL(1.0) / s.nodePower);
+}
+
+ALPENGLOW_FN Real nodeH(IN(Medium) m, IN(MomentShape) s, Real u) {
+  return m.thickness * pow(u, s.nodePower);
+}
+
+// Densest around the terminator, where the field falls by orders of magnitude.
+ALPENGLOW_FN Real nodeUnitMuS(IN(MomentShape) s, Real muS) {
+  Real theta = arcCosine(clamp(muS, REAL(-1.0), REAL(1.0)));
+  return clamp((asinh((theta - s.sunCenter) / s.sunWidth) - s.sunLow) / s.sunRange, REAL(0.0),
+               REAL(1.0));
+}
+
+ALPENGLOW_FN Real nodeMuS(IN(MomentShape) s, Real u) {
+  Real theta = s.sunCenter + s.sunWidth * sinh(s.sunLow + u * s.sunRange);
+  return cos(clamp(theta, REAL(0.0), REAL(ALPENGLOW_PI)));
+}
+
+// Texture coordinate in the first layer of the table of moments; the next lie 1 / momentLayers() on.
+ALPENGLOW_FN Real2 nodeCoordinate(IN(Medium) m, IN(MomentShape) s, Real h, Real muS) {
+  return Real2(insetCoordinate(nodeUnitMuS(s, muS), s.nodesMuS),
+               insetCoordinate(nodeUnitR(m, s, h), s.nodesR) / momentLayers());
+}
+
+// --- Sources: directions by zenith angle and azimuth from the sun, both uniform.
+
+// A direction in the frame of a point: z up, the sun in the x z plane.
+ALPENGLOW_FN Real3 localDirection(Real mu, Real muS, Real nu) {
+  Real sine = sqrt(max(REAL(1.0) - mu * mu, REAL(0.0)));
+  Real sineS = sqrt(max(REAL(1.0) - muS * muS, REAL(0.0)));
+  // Under a sun in the zenith nothing depends on the azimuth.
+  Real x = sineS > REAL(1e-4) ? clamp((nu - mu * muS) / sineS, -sine, sine) : sine;
+  return Real3(x, sqrt(max(sine * sine - x * x, REAL(0.0))), mu);
+}
+
+// Texture coordinate in the slice of azimuth 0; y: the azimuth in slices.
+struct SourceCoordinate {
+  Real3 first;
+  Real slice;
+};
+
+ALPENGLOW_FN SourceCoordinate sourceCoordinate(IN(MomentShape) s, Real2 node, Real3 v) {
+  SourceCoordinate at;
+  Real sine = sqrt(max(REAL(1.0) - v[2] * v[2], REAL(0.0)));
+  Real uTheta = arcCosine(clamp(v[2], REAL(-1.0), REAL(1.0))) / REAL(ALPENGLOW_PI);
+  Real cosPhi = sine > REAL(1e-6) ? clamp(v[0] / sine, REAL(-1.0), REAL(1.0)) : REAL(1.0);
+  at.first = Real3(insetCoordinate(uTheta, s.sourceTheta) / s.sourcePhi, node[0],
+                   node[1] * momentLayers());
+  at.slice = arcCosine(cosPhi) / REAL(ALPENGLOW_PI) * (s.sourcePhi - REAL(1.0));
+  return at;
+}
+
+// G(nu), mean 1 over the sphere: about the shape of what aerosols scatter near the sun. The ratio to it
+// is smooth enough for the table's 6 degrees; nu is constant along a ray, so it is taken once.
+ALPENGLOW_FN Real sourceShape(IN(MomentShape) s, Real nu) {
+  Real g = s.peakAsymmetry;
+  Real d = (REAL(1.0) - abs(g)) * (REAL(1.0) - abs(g)) +
+           REAL(2.0) * abs(g) * (REAL(1.0) - sign(g) * clamp(nu, REAL(-1.0), REAL(1.0)));
+  return REAL(1.0) - s.peakShare +
+         s.peakShare * (REAL(1.0) - abs(g)) * (REAL(1.0) + abs(g)) / (d * sqrt(d));
+}

@@ -1,0 +1,63 @@
+// Reading the tables of the moment solver (field.glsl). The includer defines, before it includes this:
+//   Spectrum readDepth(Real2 uv), readMoments(Real2 uv), readSource(Real3 uvw)   hardware-filtered fetches
+// Everything is per unit solar irradiance.
+
+// Optical depth from h to the top in a direction that rises.
+ALPENGLOW_FN Spectrum depthOfRise(IN(Medium) m, IN(MomentShape) s, Real h, Real mu) {
+  return decodeOpticalDepth(readDepth(depthCoordinate(m, s, h, mu)));
+}
+
+// Equation 5's exponent towards the top, in any direction that misses the ground; for one that hits it,
+// that of the horizon's grazing ray. A ray that sinks is twice its rise from the perigee, less the part
+// behind the point.
+ALPENGLOW_FN Spectrum depthTowardsTop(IN(Medium) m, IN(MomentShape) s, Real h, Real mu) {
+  Real drop = radiusAt(m, h) * mu * mu / (REAL(1.0) + sqrt(max(REAL(1.0) - mu * mu, REAL(0.0))));
+  Real low = max(h - drop, REAL(0.0));
+  Spectrum rise = depthOfRise(m, s, h, abs(mu));
+  Spectrum grazing = depthOfRise(m, s, low, REAL(0.0));
+  return mu < REAL(0.0) ? max(REAL(2.0) * grazing - rise, grazing) : rise;
+}
+
+// Equation 9 without Lsun: sunlight that arrives at h.
+ALPENGLOW_FN Spectrum sunlight(IN(Medium) m, IN(MomentShape) s, Real h, Real muS) {
+  return exp(-depthTowardsTop(m, s, h, muS)) * sunVisibility(m, h, muS);
+}
+
+ALPENGLOW_FN Spectrum readLayer(Real2 node, Real layer) {
+  return readMoments(Real2(node[0], node[1] + layer / momentLayers()));
+}
+
+// E of the sky, equation 15, on a horizontal surface.
+ALPENGLOW_FN Spectrum fieldIrradiance(IN(Medium) m, IN(MomentShape) s, Real h, Real muS) {
+  return exp(readLayer(nodeCoordinate(m, s, h, muS), REAL(4.0)));
+}
+
+// R[L], equation 10: light that a Lambertian ground sends up where the sun is at mu_s.
+ALPENGLOW_FN Spectrum fieldGroundRadiance(IN(Medium) m, IN(MomentShape) s, Spectrum albedo,
+                                          Real muS) {
+  return albedo / REAL(ALPENGLOW_PI) *
+         (sunlight(m, s, REAL(0.0), muS) * max(muS, REAL(0.0)) +
+          fieldIrradiance(m, s, REAL(0.0), muS));
+}
+
+// J of equation 7 at a point, into direction v with cosine nu to the sun; `shape` is sourceShape(nu).
+// Rayleigh's phase function is a quadratic form, so its integral is one of the second moments.
+ALPENGLOW_FN Spectrum fieldSource(IN(Medium) m, IN(MomentShape) s, Real h, Real mu, Real muS, Real nu,
+                                  Real shape) {
+  Real2 node = nodeCoordinate(m, s, h, muS);
+  Real3 v = localDirection(mu, muS, nu);
+  Spectrum mean = exp(readLayer(node, REAL(0.0)));
+  Spectrum xx = readLayer(node, REAL(1.0));
+  Spectrum zz = readLayer(node, REAL(2.0));
+  Spectrum xz = readLayer(node, REAL(3.0));
+  Spectrum one = SPECTRUM(REAL(1.0));
+  Spectrum rayleigh = one + xx * (v[0] * v[0]) + (one - xx - zz) * (v[1] * v[1]) +
+                      zz * (v[2] * v[2]) + xz * (REAL(2.0) * v[0] * v[2]);
+  SourceCoordinate at = sourceCoordinate(s, node, v);
+  Real lower = min(floor(at.slice), s.sourcePhi - REAL(2.0));
+  Real3 step = Real3(REAL(1.0) / s.sourcePhi, REAL(0.0), REAL(0.0));
+  Spectrum mie = mix(readSource(at.first + step * lower),
+                     readSource(at.first + step * (lower + REAL(1.0))), at.slice - lower);
+  return mean * (m.rayleighScattering * (rayleighDensity(m, h) * REAL(0.75)) * rayleigh +
+                 m.mieScattering * (mieDensity(m, h) * shape) * mie);
+}

@@ -1,0 +1,394 @@
+// The moment solver: what one texel of each of its tables holds. The angular integral of equation 7 is a
+// convolution, so it is diagonal in spherical harmonics: light that arrives at a node is integrated along
+// rays (L), taken apart into azimuthal modes (F) and harmonics (M), multiplied with the coefficients of the
+// aerosols' phase function, and put together again as the source of the next order (H, J). What molecules
+// scatter needs second moments only (N). The includer defines, besides the reads of field_lookup.glsl:
+//   Spectrum readRadiance(Real2 uv), readRadianceMie(Real2 uv), readRadianceGround(Real2 uv)   pass L
+//   Spectrum fetchModes(int x, int y), fetchMoments(int x, int y), fetchSourceModes(int x, int y)
+//   Real2 fetchRule(int x, int y); Real fetchLegendre(int x, int y)
+// A node's index is i_mus + nodesMuS * i_r.
+
+// Single scattering is bright around the sun: order 1 takes twice the rings, and its phase functions at
+// kFineAzimuths times the azimuths.
+const int kFineRings = 2;
+const int kFineAzimuths = 4;
+
+struct NodePoint {
+  Real h;
+  Real muS;
+  int r;  // index of its altitude
+};
+
+ALPENGLOW_FN NodePoint nodePoint(IN(Medium) m, IN(MomentShape) s, int node) {
+  NodePoint p;
+  int sizeMuS = int(s.nodesMuS);
+  p.r = node / sizeMuS;
+  p.h = nodeH(m, s, unitFromTexel(Real(p.r), s.nodesR));
+  p.muS = nodeMuS(s, unitFromTexel(Real(node - p.r * sizeMuS), s.nodesMuS));
+  return p;
+}
+
+// --- Pass T: optical depth towards the top.
+
+ALPENGLOW_FN Spectrum depthOfTexel(IN(Medium) m, IN(MomentShape) s, int x, int y) {
+  Real2 at = depthHMu(m, s, Real2(unitFromTexel(Real(x), s.depthMu), unitFromTexel(Real(y), s.depthH)));
+  return encodeOpticalDepth(opticalDepthOfSegment(m, at[0], at[1], distanceToTop(m, at[0], at[1])));
+}
+
+// --- Pass Q: quadrature in zenith angle.
+
+// Node and weight i of the n-point Gauss-Legendre rule on [0, 1], by Newton's method.
+ALPENGLOW_FN Real2 gaussLegendre(int i, int n) {
+  Real x = cos(REAL(ALPENGLOW_PI) * (Real(i) + REAL(0.75)) / (Real(n) + REAL(0.5)));
+  Real slope = REAL(1.0);
+  for (int iteration = 0; iteration < 6; ++iteration) {
+    Real p0 = REAL(1.0);
+    Real p1 = x;
+    for (int k = 2; k <= n; ++k) {
+      Real p2 = (Real(2 * k - 1) * x * p1 - Real(k - 1) * p0) / Real(k);
+      p0 = p1;
+      p1 = p2;
+    }
+    slope = Real(n) * (x * p1 - p0) / (x * x - REAL(1.0));
+    x -= p1 / slope;
+  }
+  Real weight = REAL(1.0) / ((REAL(1.0) - x * x) * slope * slope);
+  return Real2(REAL(0.5) - REAL(0.5) * x, weight);
+}
+
+ALPENGLOW_FN int ringCount(IN(MomentShape) s, int fine) {
+  return (int(s.ringsSky) + int(s.ringsLimb) + int(s.ringsGround)) * fine;
+}
+
+// Texel (ring, row) of the table of rules: row 0 with the rings, row 1 with those of order 1.
+ALPENGLOW_FN Real2 ringRule(IN(MomentShape) s, int ring, int row) {
+  int fine = row == 0 ? 1 : kFineRings;
+  int sky = int(s.ringsSky) * fine;
+  int limb = int(s.ringsLimb) * fine;
+  int ground = int(s.ringsGround) * fine;
+  if (ring < sky) return gaussLegendre(ring, sky);
+  if (ring < sky + limb) return gaussLegendre(ring - sky, limb);
+  return gaussLegendre(min(ring - sky - limb, ground - 1), ground);
+}
+
+// A cone of directions of incoming light.
+struct Ring {
+  Real mu;
+  Real weight;  // of its mu
+  bool hitsGround;
+  bool rises;
+};
+
+// Three bands, each dense towards the horizon or the horizontal, where the light changes most: the sky
+// above the horizontal (whose light is irradiance), down to the horizon, and the ground.
+ALPENGLOW_FN Ring makeRing(IN(Medium) m, IN(MomentShape) s, Real h, int ring, int fine, Real2 rule) {
+  Ring result;
+  int sky = int(s.ringsSky) * fine;
+  int limb = int(s.ringsLimb) * fine;
+  Real horizon = horizonMu(m, h);
+  Real y2 = rule[0] * rule[0];
+  result.rises = ring < sky;
+  result.hitsGround = ring >= sky + limb;
+  result.mu = result.rises        ? y2
+              : result.hitsGround ? horizon - (REAL(1.0) + horizon) * y2
+                                  : horizon * (REAL(1.0) - y2);
+  result.weight = REAL(2.0) * rule[0] * rule[1] *
+                  (result.rises ? REAL(1.0) : result.hitsGround ? REAL(1.0) + horizon : -horizon);
+  return result;
+}
+
+// --- Pass L: light that arrives at a node along the rays of a ring. x = azimuth + azimuths * ring.
+
+ALPENGLOW_FN Ray nodeRay(IN(Medium) m, IN(NodePoint) p, IN(Ring) ring, Real azimuth) {
+  Ray ray;
+  ray.start = REAL(0.0);
+  ray.h = p.h;
+  ray.mu = ring.mu;
+  ray.muS = p.muS;
+  Real spread = sqrt(max((REAL(1.0) - ring.mu * ring.mu) * (REAL(1.0) - p.muS * p.muS), REAL(0.0)));
+  ray.nu = clamp(ring.mu * p.muS + spread * cos(azimuth), REAL(-1.0), REAL(1.0));
+  ray.hitsGround = ring.hitsGround;
+  ray.extent = ring.hitsGround ? distanceToGround(m, p.h, ring.mu) : distanceToTop(m, p.h, ring.mu);
+  ray.inAtmosphere = true;
+  return ray;
+}
+
+ALPENGLOW_FN Ray rayOfTexel(IN(Medium) m, IN(MomentShape) s, int x, int node, int fine) {
+  NodePoint p = nodePoint(m, s, node);
+  int azimuths = int(s.azimuths);
+  int index = x / azimuths;
+  Ring ring = makeRing(m, s, p.h, index, fine, fetchRule(index, fine == 1 ? 0 : 1));
+  return nodeRay(m, p, ring, (Real(x - index * azimuths) + REAL(0.5)) * REAL(ALPENGLOW_PI) /
+                                 s.azimuths);
+}
+
+// Zenith cosine of the sun where a ray meets the ground.
+ALPENGLOW_FN Real muSAtGround(IN(Medium) m, IN(Ray) ray) {
+  return muSAt(m, ray.h, ray.muS, ray.nu, ray.extent, REAL(0.0));
+}
+
+// Order 1: S[L0] without phase functions, and R[L0] through the air.
+ALPENGLOW_FN void singleLight(IN(Medium) m, IN(MomentShape) s, int x, int node,
+                              OUT(Spectrum) rayleigh, OUT(Spectrum) mie, OUT(Spectrum) ground) {
+  Ray ray = rayOfTexel(m, s, x, node, kFineRings);
+  PathLight light = lightOfPath(m, s, ray, ray.extent, int(s.solverPanels), true, false);
+  rayleigh = light.rayleigh;
+  mie = light.mie;
+  Real muS = muSAtGround(m, ray);
+  Spectrum up = m.groundAlbedo / REAL(ALPENGLOW_PI) * exp(-light.depth) *
+                sunlight(m, s, REAL(0.0), muS) * max(muS, REAL(0.0));
+  ground = ray.hitsGround ? up : SPECTRUM(REAL(0.0));
+}
+
+// Order n >= 2: S[L] of the order before from its source, and R[L] of its irradiance.
+ALPENGLOW_FN Spectrum multipleLight(IN(Medium) m, IN(MomentShape) s, int x, int node) {
+  Ray ray = rayOfTexel(m, s, x, node, 1);
+  PathLight light = lightOfPath(m, s, ray, ray.extent, int(s.solverPanels), false, true);
+  Spectrum up = m.groundAlbedo / REAL(ALPENGLOW_PI) * exp(-light.depth) *
+                fieldIrradiance(m, s, REAL(0.0), muSAtGround(m, ray));
+  return light.multiple + (ray.hitsGround ? up : SPECTRUM(REAL(0.0)));
+}
+
+// --- Pass F: the integral of L cos(m phi) over a ring, four modes at once, since their sums share the
+// phase functions. x = group + modeGroups * ring; the modes are 4 group ... 4 group + 3.
+
+ALPENGLOW_FN int modeGroups(IN(MomentShape) s) { return (int(s.degree) + 4) / 4; }
+
+struct FourModes {
+  Spectrum a, b, c, d;
+};
+
+ALPENGLOW_FN FourModes modesOfRing(IN(Medium) m, IN(MomentShape) s, int x, int node,
+                                   bool firstOrder) {
+  int fine = firstOrder ? kFineRings : 1;
+  int index = x / modeGroups(s);
+  Real mode = REAL(4.0) * Real(x - index * modeGroups(s));
+  NodePoint p = nodePoint(m, s, node);
+  Ring ring = makeRing(m, s, p.h, index, fine, fetchRule(index, firstOrder ? 1 : 0));
+  Real spread = sqrt(max((REAL(1.0) - ring.mu * ring.mu) * (REAL(1.0) - p.muS * p.muS), REAL(0.0)));
+  Real width = s.azimuths * Real(ringCount(s, fine));
+  Real v = (Real(node) + REAL(0.5)) / (s.nodesMuS * s.nodesR);
+  int count = int(s.azimuths) * (firstOrder ? kFineAzimuths : 1);
+  FourModes sum;
+  sum.a = sum.b = sum.c = sum.d = SPECTRUM(REAL(0.0));
+  for (int i = 0; i < count; ++i) {
+    Real turn = (Real(i) + REAL(0.5)) / Real(count);
+    Real phi = turn * REAL(ALPENGLOW_PI);
+    Real u = (s.azimuths * Real(index) +
+              clamp(turn * s.azimuths, REAL(0.5), s.azimuths - REAL(0.5))) / width;
+    Spectrum light = readRadiance(Real2(u, v));
+    if (firstOrder) {
+      Real nu = clamp(ring.mu * p.muS + spread * cos(phi), REAL(-1.0), REAL(1.0));
+      light = light * rayleighPhase(nu) +
+              readRadianceMie(Real2(u, v)) * miePhase(m.mieAsymmetry, nu) +
+              readRadianceGround(Real2(u, v));
+    }
+    sum.a += light * cos(mode * phi);
+    sum.b += light * cos((mode + REAL(1.0)) * phi);
+    sum.c += light * cos((mode + REAL(2.0)) * phi);
+    sum.d += light * cos((mode + REAL(3.0)) * phi);
+  }
+  Real weight = REAL(2.0) * REAL(ALPENGLOW_PI) / Real(count);
+  sum.a *= weight;
+  sum.b *= weight;
+  sum.c *= weight;
+  sum.d *= weight;
+  return sum;
+}
+
+// --- Pass Y: Legendre functions, such that Y_lm = legendre(l, m, mu) {1, m = 0; sqrt(2) cos(m phi)}
+// are orthonormal. x = l (l + 1) / 2 + m.
+
+ALPENGLOW_FN Real legendre(int l, int m, Real mu) {
+  Real sine = sqrt(max(REAL(1.0) - mu * mu, REAL(0.0)));
+  Real diagonal = REAL(0.28209479177387814);  // Y_00
+  for (int k = 1; k <= m; ++k) diagonal *= sqrt(REAL(1.0) + REAL(0.5) / Real(k)) * sine;
+  Real before = REAL(0.0);
+  Real now = diagonal;
+  for (int k = m + 1; k <= l; ++k) {
+    Real k2 = Real(k * k);
+    Real m2 = Real(m * m);
+    Real below = Real((k - 1) * (k - 1));
+    Real a = sqrt((REAL(4.0) * k2 - REAL(1.0)) / (k2 - m2));
+    Real b = sqrt((below - m2) / (REAL(4.0) * below - REAL(1.0)));
+    Real next = a * (mu * now - (k > m + 1 ? b * before : REAL(0.0)));
+    before = now;
+    now = next;
+  }
+  return now;
+}
+
+// Degree of the harmonic with index x; its mode is x - l (l + 1) / 2.
+ALPENGLOW_FN int degreeOf(int x) {
+  int l = int(REAL(0.5) * (sqrt(REAL(8.0) * Real(x) + REAL(1.0)) - REAL(1.0)));
+  // The root's rounding must not choose the neighbour.
+  l += (l + 1) * (l + 2) / 2 <= x ? 1 : 0;
+  return l - (l * (l + 1) / 2 > x ? 1 : 0);
+}
+
+// Rows of the table of Legendre functions: the rings of each altitude, those of order 1, and the
+// zenith angles of the sources.
+ALPENGLOW_FN int legendreRow(IN(MomentShape) s, int r, int ring, int fine) {
+  int coarse = ringCount(s, 1) * int(s.nodesR);
+  return fine == 1 ? r * ringCount(s, 1) + ring : coarse + r * ringCount(s, kFineRings) + ring;
+}
+
+ALPENGLOW_FN int legendreRowOfSource(IN(MomentShape) s, int theta) {
+  return ringCount(s, 1 + kFineRings) * int(s.nodesR) + theta;
+}
+
+ALPENGLOW_FN Real sourceMu(IN(MomentShape) s, int theta) {
+  return cos(REAL(ALPENGLOW_PI) * unitFromTexel(Real(theta), s.sourceTheta));
+}
+
+ALPENGLOW_FN Real legendreOfTexel(IN(Medium) m, IN(MomentShape) s, int x, int y) {
+  int coarse = ringCount(s, 1);
+  int fine = ringCount(s, kFineRings);
+  int fineRow = y - coarse * int(s.nodesR);
+  int sourceRow = y - legendreRowOfSource(s, 0);
+  bool isFine = fineRow >= 0;
+  int r = isFine ? fineRow / fine : y / coarse;
+  int ring = isFine ? fineRow - r * fine : y - r * coarse;
+  Real mu;
+  if (sourceRow >= 0) {
+    mu = sourceMu(s, sourceRow);
+  } else {
+    Real h = nodeH(m, s, unitFromTexel(Real(r), s.nodesR));
+    mu = makeRing(m, s, h, ring, isFine ? kFineRings : 1, fetchRule(ring, isFine ? 1 : 0)).mu;
+  }
+  int l = degreeOf(x);
+  return legendre(l, x - l * (l + 1) / 2, mu);
+}
+
+// --- Pass M: the coefficient of L for harmonic x = l (l + 1) / 2 + m.
+
+ALPENGLOW_FN Spectrum momentOfNode(IN(Medium) m, IN(MomentShape) s, int x, int node,
+                                   bool firstOrder) {
+  int fine = firstOrder ? kFineRings : 1;
+  int l = degreeOf(x);
+  int mode = x - l * (l + 1) / 2;
+  int modes = int(s.degree) + 1;
+  NodePoint p = nodePoint(m, s, node);
+  int rings = ringCount(s, fine);
+  Spectrum sum = SPECTRUM(REAL(0.0));
+  for (int i = 0; i < rings; ++i) {
+    Ring ring = makeRing(m, s, p.h, i, fine, fetchRule(i, firstOrder ? 1 : 0));
+    sum += fetchModes(mode + modes * i, node) *
+           (ring.weight * fetchLegendre(x, legendreRow(s, p.r, i, fine)));
+  }
+  return sum * (mode == 0 ? REAL(1.0) : REAL(1.41421356237309505));
+}
+
+// --- Pass H: mode m of what aerosols scatter into zenith angle theta. x = m + (degree + 1) * theta.
+
+// Coefficient l of Cornette-Shanks: 2 pi times the integral of P_M P_l. The phase function is
+// Henyey-Greenstein's times 3/2 (1 + nu^2) / (2 + g^2), and nu^2 mixes three neighbours of g^l.
+ALPENGLOW_FN Real mieCoefficient(Real g, int l, Real power, Real powerBelow) {
+  Real k = Real(l);
+  Real up = (k + REAL(1.0)) * (k + REAL(2.0)) / ((REAL(2.0) * k + REAL(1.0)) * (REAL(2.0) * k + REAL(3.0)));
+  Real own = (k + REAL(1.0)) * (k + REAL(1.0)) / ((REAL(2.0) * k + REAL(1.0)) * (REAL(2.0) * k + REAL(3.0))) +
+             k * k / (REAL(4.0) * k * k - REAL(1.0));
+  Real down = k * (k - REAL(1.0)) / (REAL(4.0) * k * k - REAL(1.0));
+  // For l = 0 and 1 `down` is 0. up and down as P_k sees them: from P_{k+2} and P_{k-2}.
+  return REAL(1.5) / (REAL(2.0) + g * g) *
+         (power * (REAL(1.0) + own) + up * power * g * g + down * powerBelow);
+}
+
+ALPENGLOW_FN Spectrum sourceModeOfNode(IN(Medium) m, IN(MomentShape) s, int x, int node) {
+  int modes = int(s.degree) + 1;
+  int theta = x / modes;
+  int mode = x - theta * modes;
+  Real g = m.mieAsymmetry;
+  Real power = REAL(1.0);       // g^l
+  Real powerBelow = REAL(0.0);  // g^(l - 2)
+  Real powerBefore = REAL(0.0);
+  Spectrum sum = SPECTRUM(REAL(0.0));
+  for (int l = 0; l < modes; ++l) {
+    if (l >= mode) {
+      sum += fetchMoments(l * (l + 1) / 2 + mode, node) *
+             (mieCoefficient(g, l, power, powerBelow) *
+              fetchLegendre(l * (l + 1) / 2 + mode, legendreRowOfSource(s, theta)));
+    }
+    powerBelow = powerBefore;
+    powerBefore = power;
+    power *= g;
+  }
+  return sum * (mode == 0 ? REAL(1.0) : REAL(1.41421356237309505));
+}
+
+// --- Pass J: what aerosols scatter, per beta_M. x = theta + thetas * phi, y = i_mus, z = i_r.
+
+ALPENGLOW_FN Spectrum sourceOfTexel(IN(MomentShape) s, int x, int node) {
+  int thetas = int(s.sourceTheta);
+  int index = x / thetas;
+  int modes = int(s.degree) + 1;
+  int first = (x - index * thetas) * modes;
+  Real phi = REAL(ALPENGLOW_PI) * unitFromTexel(Real(index), s.sourcePhi);
+  Spectrum sum = SPECTRUM(REAL(0.0));
+  for (int mode = 0; mode < modes; ++mode)
+    sum += fetchSourceModes(first + mode, node) * cos(Real(mode) * phi);
+  return max(sum, SPECTRUM(REAL(0.0)));
+}
+
+// What the table of sources stores relative to: N G(nu) of the texel.
+ALPENGLOW_FN Spectrum sourceUnit(IN(Medium) m, IN(MomentShape) s, int x, int node, Spectrum mean) {
+  int thetas = int(s.sourceTheta);
+  int index = x / thetas;
+  Real phi = REAL(ALPENGLOW_PI) * unitFromTexel(Real(index), s.sourcePhi);
+  Real mu = sourceMu(s, x - index * thetas);
+  Real muS = nodePoint(m, s, node).muS;
+  Real spread = sqrt(max((REAL(1.0) - mu * mu) * (REAL(1.0) - muS * muS), REAL(0.0)));
+  return mean * sourceShape(s, clamp(mu * muS + spread * cos(phi), REAL(-1.0), REAL(1.0)));
+}
+
+// --- Pass N: mean radiance, second moments over it, and irradiance of a node.
+
+struct NodeField {
+  Spectrum mean;         // N
+  Spectrum xx, zz, xz;   // integrals of L w_i w_j over the sphere, divided by 4 pi
+  Spectrum irradiance;   // E on a horizontal surface, equation 15
+};
+
+ALPENGLOW_FN NodeField fieldOfNode(IN(Medium) m, IN(MomentShape) s, int node, bool firstOrder) {
+  int fine = firstOrder ? kFineRings : 1;
+  NodeField field;
+  const Real kSphere = REAL(1.0) / (REAL(4.0) * REAL(ALPENGLOW_PI));
+  // From the harmonics of degree 0 and 2; x^2 - y^2 and x z are Y_22 and Y_21 but for a factor.
+  field.mean = fetchMoments(0, node) * (REAL(3.5449077018110320) * kSphere);
+  Spectrum p2 = fetchMoments(3, node) * (REAL(1.5853309190424043) * kSphere);
+  field.zz = (field.mean + REAL(2.0) * p2) / REAL(3.0);
+  Spectrum difference = fetchMoments(5, node) * (REAL(1.8305826292287) * kSphere);
+  field.xx = REAL(0.5) * (field.mean - field.zz + difference);
+  field.xz = fetchMoments(4, node) * (REAL(0.9152913146143) * kSphere);
+  field.irradiance = SPECTRUM(REAL(0.0));
+  int modes = int(s.degree) + 1;
+  int sky = int(s.ringsSky) * fine;
+  NodePoint p = nodePoint(m, s, node);
+  for (int i = 0; i < sky; ++i) {
+    Ring ring = makeRing(m, s, p.h, i, fine, fetchRule(i, firstOrder ? 1 : 0));
+    field.irradiance += fetchModes(modes * i, node) * (ring.weight * ring.mu);
+  }
+  return field;
+}
+
+// Layers of the table of moments as stored.
+ALPENGLOW_FN Spectrum encodeLayer(IN(NodeField) field, int layer) {
+  Spectrum dark = SPECTRUM(darkness());
+  Spectrum mean = max(field.mean, dark);
+  // Where there is no light, light from everywhere alike: 1/3, 1/3, 0.
+  Spectrum third = SPECTRUM(REAL(1.0) / REAL(3.0)) * (mean - max(field.mean, SPECTRUM(REAL(0.0))));
+  if (layer == 0) return log(mean);
+  if (layer == 1) return clamp((field.xx + third) / mean, REAL(0.0), REAL(1.0));
+  if (layer == 2) return clamp((field.zz + third) / mean, REAL(0.0), REAL(1.0));
+  if (layer == 3) return clamp(field.xz / mean, REAL(-0.5), REAL(0.5));
+  return log(max(field.irradiance, dark));
+}
+
+// --- The sum of the orders.
+
+// Sum of the geometric series that follows the last order, over that order: q / (1 - q), q the ratio of
+// the last two.
+ALPENGLOW_FN Spectrum tailFactor(IN(MomentShape) s, Spectrum last, Spectrum before) {
+  Spectrum q = clamp(last / max(before, SPECTRUM(darkness())), REAL(0.0), REAL(0.95));
+  return q / (SPECTRUM(REAL(1.0)) - q) * s.tail;
+}

@@ -1,0 +1,189 @@
+// The bake of the moment solver: same bytes however sliced, tables of single orders, upload,
+// numbers that are finite, and nothing of the other solver.
+#include <cmath>
+#include <random>
+
+#include "tests/bake/bake_fixture.h"
+
+namespace alpenglow::testing {
+namespace {
+
+constexpr TableId kFinalTables[] = {TableId::OpticalDepth, TableId::Moments, TableId::Source};
+
+TableDesc tinyDesc(uint32_t orders) {
+  TableDesc desc;
+  desc.orders = orders;
+  desc.moments = {32, 16, 4, 12, 4, 2, 3, 6, 6, 10, 5, 2, 2};
+  return desc;
+}
+
+class MomentsTest : public BakeTest {
+ protected:
+  TableCopies readAll(Tables* tables) {
+    TableCopies copies;
+    for (TableId id : kFinalTables) copies[id] = read(tables, id);
+    return copies;
+  }
+
+  void expectSameBytes(const TableCopies& a, const TableCopies& b, const std::string& what) {
+    for (const auto& [id, table] : a)
+      EXPECT_EQ(table.bytes, b.at(id).bytes) << table.info.name << " " << what;
+  }
+};
+
+TEST_F(MomentsTest, TheBytesDoNotDependOnTheBudget) {
+  const Parameters earth = preset("earth");
+  const TableCopies whole = readAll(bakeTables(earth, tinyDesc(4), 0));
+  for (uint64_t budget : {uint64_t(1), uint64_t(20'000), uint64_t(1'000'000)}) {
+    const TableCopies sliced = readAll(bakeTables(earth, tinyDesc(4), budget));
+    expectSameBytes(whole, sliced, "at budget " + std::to_string(budget));
+  }
+  std::mt19937 random(7);
+  Tables* tables = makeTables(earth, tinyDesc(4));
+  BakeProgress progress;
+  while (!progress.done && !HasFailure()) {
+    run([&](VkCommandBuffer commands) {
+      return recordBake(tables, commands, device().frame(), random() % 100'000, &progress) ==
+             Status::Ok;
+    });
+  }
+  expectSameBytes(whole, readAll(tables), "at random budgets");
+}
+
+TEST_F(MomentsTest, ThePassesAreNamedAndCounted) {
+  Tables* tables = makeTables(preset("earth"), tinyDesc(3));
+  std::string passes;
+  uint64_t done = 0;
+  BakeProgress progress;
+  while (!progress.done && !HasFailure()) {
+    run([&](VkCommandBuffer commands) {
+      return recordBake(tables, commands, device().frame(), 0, &progress) == Status::Ok;
+    });
+    done += progress.unitsRecorded;
+    EXPECT_TRUE(progress.passFinished);
+    passes += std::string(progress.pass) + ", ";
+  }
+  EXPECT_EQ(done, progress.unitsTotal);
+  EXPECT_EQ(passes,
+            "T, Q, Y, L 1, F 1, M 1, H 1, N 1, J 2, L 2, F 2, M 2, H 2, N 2, J 3, N sum, J sum, ");
+}
+
+TEST_F(MomentsTest, EveryPresetAndFormatIsFinite) {
+  for (uint32_t i = 0; i < presetCount(); ++i) {
+    for (TableFormat format : {TableFormat::Half, TableFormat::Float}) {
+      TableDesc desc = tinyDesc(0);
+      desc.format = format;
+      const TableCopies copies = readAll(bakeTables(preset(presetName(i)), desc));
+      for (const auto& [id, table] : copies) {
+        bool good = true, lit = false;
+        for (float v : table.values) {
+          good = good && std::isfinite(v) && (v >= 0.0f || id == TableId::Moments);
+          lit = lit || v > 0.0f;
+        }
+        EXPECT_TRUE(good) << presetName(i) << " " << table.info.name;
+        EXPECT_TRUE(lit) << presetName(i) << " " << table.info.name << " is all zero";
+      }
+    }
+  }
+}
+
+// Sources are scattered at least twice: with one order there are none, nor any light that makes
+// them.
+TEST_F(MomentsTest, OneOrderHasNoMultipleScattering) {
+  const TableCopies copies = readAll(bakeTables(preset("earth"), tinyDesc(1)));
+  for (float v : copies.at(TableId::Source).values) ASSERT_EQ(v, 0.0f);
+  const CpuTable& moments = copies.at(TableId::Moments);
+  const uint32_t rows = moments.info.height / 5;
+  for (uint32_t x = 0; x < moments.info.width; ++x)
+    for (uint32_t y = 0; y < rows; ++y)
+      for (int c = 0; c < 3; ++c)
+        for (uint32_t layer : {0u, 4u})
+          ASSERT_LT(moments.texel(x, y + layer * rows)[c], -69.0f)
+              << "ln of the darkness is -69.08";
+}
+
+TEST_F(MomentsTest, MoreOrdersAreBrighterAndTheTailIsBrightest) {
+  std::vector<CpuTable> tables;
+  for (uint32_t orders : {2u, 3u, 5u, 0u})
+    tables.push_back(read(bakeTables(preset("earth"), tinyDesc(orders)), TableId::Moments));
+  for (size_t i = 1; i < tables.size(); ++i) {
+    const uint32_t rows = tables[i].info.height / 5;
+    for (uint32_t x = 0; x < tables[i].info.width; ++x)
+      for (uint32_t y = 0; y < rows; ++y)
+        for (int c = 0; c < 3; ++c)
+          for (uint32_t layer : {0u, 4u}) {
+            const float less = tables[i - 1].texel(x, y + layer * rows)[c];
+            const float more = tables[i].texel(x, y + layer * rows)[c];
+            ASSERT_GE(more, less - 1e-4f) << x << " " << y << " layer " << layer;
+          }
+  }
+}
+
+TEST_F(MomentsTest, AnUploadGivesTheSameTables) {
+  const Parameters earth = preset("earth");
+  const TableCopies baked = readAll(bakeTables(earth, tinyDesc(3)));
+  Tables* uploaded = makeTables(earth, tinyDesc(3));
+  for (const auto& [id, table] : baked) {
+    EXPECT_FALSE(tablesReady(uploaded));
+    std::string error;
+    headless::HostBuffer buffer =
+        device().createHostBuffer(table.bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, &error);
+    ASSERT_NE(buffer.data(), nullptr) << error;
+    std::copy(table.bytes.begin(), table.bytes.end(), static_cast<uint8_t*>(buffer.data()));
+    run([&, id = id](VkCommandBuffer commands) {
+      return recordTableUpload(uploaded, commands, device().frame(), id, buffer.buffer(), 0) ==
+             Status::Ok;
+    });
+  }
+  EXPECT_TRUE(tablesReady(uploaded));
+  expectSameBytes(baked, readAll(uploaded), "after an upload");
+}
+
+// With two orders the sum is the one order that was solved.
+TEST_F(MomentsTest, TablesOfOrdersAreReadRightAfterTheirPass) {
+  TableDesc desc = tinyDesc(2);
+  desc.keepOrders = true;
+  desc.format = TableFormat::Float;
+  Tables* tables = makeTables(preset("earth"), desc);
+  std::string error;
+  const headless::HostBuffer buffer =
+      device().createHostBuffer(1 << 20, VK_BUFFER_USAGE_TRANSFER_DST_BIT, &error);
+  const auto status = [&](TableId id) {
+    Status result = Status::Ok;
+    run([&](VkCommandBuffer commands) {
+      result = recordTableReadback(tables, commands, id, buffer.buffer(), 0);
+      return true;
+    });
+    return result;
+  };
+  bake(tables, 0, "M 1");
+  EXPECT_EQ(status(TableId::OrderMoments), Status::NotReady);
+  EXPECT_NE(lastDiagnostic().find("\"N 1\""), std::string::npos) << lastDiagnostic();
+  EXPECT_EQ(status(TableId::OrderScattering), Status::Unsupported);
+  EXPECT_NE(lastDiagnostic().find("Solver::Standard"), std::string::npos) << lastDiagnostic();
+  bake(tables, 0, "N 1");
+  EXPECT_EQ(status(TableId::OrderSource), Status::NotReady);
+  const CpuTable orderMoments = read(tables, TableId::OrderMoments);
+  bake(tables, 0, "J 2");
+  EXPECT_EQ(status(TableId::OrderMoments), Status::NotReady);
+  const CpuTable orderSource = read(tables, TableId::OrderSource);
+  bake(tables);
+  EXPECT_EQ(orderMoments.bytes, read(tables, TableId::Moments).bytes);
+  const CpuTable source = read(tables, TableId::Source);
+  for (size_t i = 0; i < source.values.size(); ++i)
+    ASSERT_NEAR(source.values[i], orderSource.values[i], 1e-4f * source.values[i] + 1e-6f);
+}
+
+TEST_F(MomentsTest, ScratchIsFreedWhenTheLastFrameCompletes) {
+  ResourceReport before, after;
+  Tables* tables = makeTables(preset("earth"), tinyDesc(4));
+  resourceReport(context(), &before);
+  bake(tables);
+  collect(context(), device().frame().completed);
+  resourceReport(context(), &after);
+  EXPECT_LT(after.bytes, before.bytes);
+  EXPECT_EQ(after.images, 3u);
+}
+
+}  // namespace
+}  // namespace alpenglow::testing
