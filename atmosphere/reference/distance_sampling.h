@@ -1,0 +1,44 @@
+// Where along a ray the next event lies: drawn by what a rough solution says of the light there.
+#pragma once
+
+#include "atmosphere/reference/light_guide.h"
+#include "atmosphere/reference/ray_nodes.h"
+
+namespace alpenglow::reference {
+
+struct DistanceSample {
+  double t = 0.0;
+  double density = 1.0;  ///< Per metre in the air, a probability on the ground.
+};
+
+/// The density is linear between a ray's nodes. A part of it doesn't trust the guide, and a small
+/// one not even the densities, so that every point of the ray has its chance.
+class DistanceSampling {
+ public:
+  /// `counts`: what light of each channel, before this ray, counts for. `direct`: sunlight that
+  /// scatters at the event counts too.
+  DistanceSampling(const Medium& medium, const LightGuide& guide, const Stretch& stretch,
+                   double muS, double nu, const physics_f64::Spectrum& counts, bool direct,
+                   bool ground);
+
+  /// False where nothing can come from along the ray.
+  bool possible() const { return possible_; }
+  double groundProbability() const { return groundProbability_; }
+  /// `share`: the probability of an event in the air, which multiplies the density.
+  DistanceSample sample(double u, double share) const;
+
+  /// A rough value of the light of all orders after the first, scattered along a stretch.
+  static physics_f64::Spectrum lightAlong(const Medium& medium, const LightGuide& guide,
+                                          const Stretch& stretch, double muS, double nu);
+
+ private:
+  static constexpr size_t kMost = 3 * RayNodes::kFine + 2;
+
+  RayNodes nodes_;
+  std::array<double, kMost> weights_{};
+  std::array<double, kMost> sums_{};  ///< Integral of the weights up to each node.
+  double groundProbability_ = 0.0;
+  bool possible_ = false;
+};
+
+}  // namespace alpenglow::reference

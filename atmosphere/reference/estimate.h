@@ -1,0 +1,50 @@
+// Means of many paths, batch by batch: the same numbers however the batches are dealt out.
+#pragma once
+
+#include "atmosphere/reference/path_tracer.h"
+
+namespace alpenglow::reference {
+
+/// Paths of a batch: a whole net of the Sobol sequence. Batches are independent of each other, and
+/// the standard error comes from the spread of their means.
+inline constexpr uint64_t kBatchPaths = 1024;
+inline constexpr uint64_t kLeastBatches = 32;
+
+struct Estimate {
+  Spectrum value;
+  Spectrum error;
+};
+
+/// What is estimated. With `air`: light scattered along a stretch of `length` metres in direction
+/// `view` by paths of `least` to `most` events. With `surface`: irradiance of the sky on a
+/// horizontal surface at `surfacePlace`, by paths of at most `surfaceMost` events.
+struct Task {
+  bool air = false;
+  Observer observer;
+  Vector view{0.0, 0.0, 1.0};
+  double length = 0.0;
+  uint32_t least = 2;
+  uint32_t most = kAllOrders;
+  bool surface = false;
+  Observer surfacePlace;
+  uint32_t surfaceMost = kAllOrders;
+  /// Light below which an error is not counted relative to the light; per channel.
+  Spectrum least_radiance;
+  /// The air's part that is known already, and what a unit of the surface's irradiance, and the
+  /// direct light there, add to the surface's answer: they count in relative errors.
+  Spectrum knownAir;
+  Spectrum surfaceFactor{{1.0, 1.0, 1.0}};
+  Spectrum knownSurface;
+};
+
+struct TaskResult {
+  Estimate air;
+  Estimate surface;
+  uint64_t samples = 0;
+};
+
+/// Options as alpenglow::ReferenceOptions has them; `target` is the error to stop at.
+TaskResult run(const PathTracer& tracer, const Task& task, const ReferenceOptions& options,
+               double target);
+
+}  // namespace alpenglow::reference

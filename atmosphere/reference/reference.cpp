@@ -1,0 +1,174 @@
+// The public path tracer: order 1 from single_scattering.h, the others from estimate.h.
+#include <alpenglow/reference.h>
+
+#include <new>
+#include <numbers>
+
+#include "atmosphere/reference/estimate.h"
+#include "atmosphere/reference/single_scattering.h"
+
+namespace alpenglow {
+inline namespace v1 {
+
+class Reference {
+ public:
+  explicit Reference(const Parameters& parameters) : tracer(makeMediumF64(parameters)) {}
+  const reference::PathTracer tracer;
+};
+
+}  // namespace v1
+
+namespace reference {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+/// Where the sun stands over a horizontal place, given its zenith cosine.
+Observer placeUnder(double h, double muS) {
+  return {h, Vector(std::sqrt(std::max(1.0 - muS * muS, 0.0)), 0.0, muS)};
+}
+
+/// How much more error the target allows for under a low sun.
+double allowance(double sunElevation) {
+  const double degrees = sunElevation / kDegree + 1e-9;
+  return degrees >= 0.0 ? 1.0 : degrees >= -6.0 ? 3.0 : degrees >= -12.0 ? 5.0 : 10.0;
+}
+
+/// The radiance below which errors count absolutely: 2 % of the ground's, were it white.
+Spectrum leastRadiance(const PathTracer& tracer, double sunElevation) {
+  Task task;
+  task.surface = true;
+  task.surfacePlace = placeUnder(0.0, std::sin(sunElevation));
+  ReferenceOptions options;
+  options.samples = 2 * kBatchPaths;
+  const Estimate light = run(tracer, task, options, 1.0).surface;
+  Spectrum least;
+  for (uint32_t c = 0; c < kSpectrumSize; ++c) {
+    least[c] = std::max(0.02 * light.value[c] / std::numbers::pi, 1e-9);
+  }
+  return least;
+}
+
+uint32_t beforeLast(uint32_t orders) { return orders == kAllOrders ? kAllOrders : orders - 1; }
+
+/// The two parts of a ray's answer, as a task.
+Task rayTask(const Medium& medium, const ProbeQuery& query, const ReferenceAnswer& exact,
+             uint32_t orders) {
+  Task task;
+  const ResolvedQuery resolved = resolveQuery(medium, query);
+  if (resolved.empty || orders < 2) return task;
+  const physics_f64::Ray& ray = resolved.ray;
+  // At the ray's entry into the air only mu, mu_s and nu are left of the observer's angles.
+  const double viewSine = std::sqrt(std::max(1.0 - ray.mu * ray.mu, 0.0));
+  const double sunSine = std::sqrt(std::max(1.0 - ray.muS * ray.muS, 0.0));
+  const double spread = viewSine * sunSine;
+  const double cosine =
+      spread > 1e-12 ? std::clamp((ray.nu - ray.mu * ray.muS) / spread, -1.0, 1.0) : 1.0;
+  task.view = Vector(viewSine, 0.0, ray.mu);
+  task.observer = {ray.h, Vector(sunSine * cosine,
+                                 sunSine * std::sqrt((1.0 - cosine) * (1.0 + cosine)), ray.muS)};
+  task.length = resolved.length;
+  task.air = resolved.length > 0.0;
+  task.most = orders;
+  task.knownAir = exact.value.skyRadiance;
+  task.surface = resolved.endsOnGround;
+  task.surfaceMost = beforeLast(orders);
+  if (task.surface) {
+    task.surfacePlace =
+        placeUnder(0.0, physics_f64::muSAt(medium, ray.h, ray.muS, ray.nu, resolved.length, 0.0));
+    task.knownSurface = exact.value.groundRadiance;
+    for (uint32_t c = 0; c < kSpectrumSize; ++c) {
+      task.surfaceFactor[c] = exact.value.transmittance[c] *
+                              medium.groundAlbedo[static_cast<glm::length_t>(c)] / std::numbers::pi;
+    }
+  }
+  return task;
+}
+
+Task irradianceTask(const Medium& medium, const ProbeQuery& query, uint32_t orders) {
+  Task task;
+  task.surface = query.altitude_m <= medium.thickness && orders >= 2;
+  task.surfacePlace = placeUnder(query.altitude_m, std::cos(query.sunZenith));
+  task.surfaceMost = beforeLast(orders);
+  return task;
+}
+
+void addTo(Spectrum* value, Spectrum* error, const Estimate& part, const Spectrum& factor) {
+  for (uint32_t c = 0; c < kSpectrumSize; ++c) {
+    (*value)[c] += factor[c] * part.value[c];
+    (*error)[c] = std::hypot((*error)[c], factor[c] * part.error[c]);
+  }
+}
+
+ReferenceAnswer evaluate(const PathTracer& tracer, const ProbeQuery& query,
+                         const ReferenceOptions& options) {
+  const Medium& medium = tracer.medium();
+  const uint32_t orders = options.orders == 0 ? kAllOrders : options.orders;
+  ReferenceAnswer answer = singleScattering(medium, query, kRelativeTolerance);
+  Task task = query.irradiance ? irradianceTask(medium, query, orders)
+                               : rayTask(medium, query, answer, orders);
+  if (!task.air && !task.surface) return answer;
+  double target = 0.0;
+  if (options.samples == 0) {
+    const double elevation = bandSunElevation(medium, query);
+    target = options.targetError * allowance(elevation);
+    task.least_radiance = leastRadiance(tracer, elevation);
+  }
+  const TaskResult result = run(tracer, task, options, target);
+  answer.samples = result.samples;
+  constexpr Spectrum kOne = {{1.0, 1.0, 1.0}};
+  if (task.air)
+    addTo(&answer.value.skyRadiance, &answer.standardError.skyRadiance, result.air, kOne);
+  if (task.surface && query.irradiance) {
+    addTo(&answer.value.sky, &answer.standardError.sky, result.surface, kOne);
+  } else if (task.surface) {
+    addTo(&answer.value.groundRadiance, &answer.standardError.groundRadiance, result.surface,
+          task.surfaceFactor);
+  }
+  return answer;
+}
+
+}  // namespace
+}  // namespace reference
+
+inline namespace v1 {
+
+Status createReference(const Parameters& parameters, Reference** out) {
+  if (out == nullptr || validate(parameters, nullptr, 0) != Status::Ok) {
+    return Status::InvalidArgument;
+  }
+  try {
+    *out = new Reference(parameters);
+  } catch (const std::bad_alloc&) {
+    return Status::OutOfHostMemory;
+  }
+  return Status::Ok;
+}
+
+void destroyReference(Reference* reference) { delete reference; }
+
+Status evaluateReference(const Reference* reference, const ProbeQuery& query,
+                         const ReferenceOptions& options, ReferenceAnswer* out) {
+  const bool goodTarget = options.samples > 0 || options.targetError > 0.0;
+  if (reference == nullptr || out == nullptr || !reference::isValid(query) || !goodTarget) {
+    return Status::InvalidArgument;
+  }
+  try {
+    *out = reference::evaluate(reference->tracer, query, options);
+  } catch (const std::bad_alloc&) {
+    return Status::OutOfHostMemory;
+  }
+  return Status::Ok;
+}
+
+Status evaluateReference(const Parameters& parameters, const ProbeQuery& query,
+                         const ReferenceOptions& options, ReferenceAnswer* out) {
+  Reference* prepared = nullptr;
+  Status status = createReference(parameters, &prepared);
+  if (status == Status::Ok) status = evaluateReference(prepared, query, options, out);
+  destroyReference(prepared);
+  return status;
+}
+
+}  // namespace v1
+}  // namespace alpenglow
