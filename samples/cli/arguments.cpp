@@ -72,6 +72,8 @@ std::string checkPictureSize(const std::string& text) {
 
 uint32_t parseOrders(const std::string& text) { return static_cast<uint32_t>(std::stoul(text)); }
 
+uint64_t parseSamples(const std::string& text) { return std::stoull(text); }
+
 void parsePictureSize(const std::string& text, uint32_t* width, uint32_t* height) {
   const size_t times = std::min(text.find('x'), text.size());
   const std::string sides[2] = {text.substr(0, times),
@@ -167,13 +169,22 @@ void addSizeOption(CLI::App* command, std::string* size) {
       ->check(checkPictureSize);
 }
 
-void addMethodOption(CLI::App* command, std::string* method) {
+void addMethodOptions(CLI::App* command, ProbeArguments* arguments) {
   command
-      ->add_option("--method", *method,
-                   "tables: on the device (default); reference: in double precision, with "
-                   "--orders 1")
+      ->add_option("--method", arguments->method,
+                   "tables: on the device (default); reference: by path tracing in double "
+                   "precision, all orders unless --orders is given")
       ->type_name("tables|reference")
       ->check(oneOf({"tables", "reference"}));
+  command
+      ->add_option("--samples", arguments->samples,
+                   "Paths that the reference traces for each query, 1 to 999999999 (default: until "
+                   "the standard error is 0.1 % by day, more in twilight)")
+      ->type_name("N")
+      ->check([](const std::string& text) {
+        const bool good = isWholeNumber(text) && parseSamples(text) >= 1;
+        return good ? std::string() : "'" + text + "' is not a whole number from 1 to 999999999";
+      });
 }
 
 }  // namespace alpenglow::cli

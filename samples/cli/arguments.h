@@ -55,6 +55,7 @@ struct ProbeArguments {
   std::string atmosphere;
   std::string queries;
   std::string method = "tables";
+  std::optional<std::string> samples;
   TableArguments tables;
   RunArguments run;
 };
@@ -65,10 +66,11 @@ void addTableOptions(CLI::App* command, const std::string& keepOrdersHelp,
 void addTableFileOption(CLI::App* command, TableArguments* arguments);
 void addRunOptions(CLI::App* command, const std::string& outputHelp, RunArguments* arguments);
 void addSizeOption(CLI::App* command, std::string* size);
-void addMethodOption(CLI::App* command, std::string* method);
+void addMethodOptions(CLI::App* command, ProbeArguments* arguments);
 
 /// Whole numbers of a text that an option's check has accepted.
 uint32_t parseOrders(const std::string& text);
+uint64_t parseSamples(const std::string& text);
 void parsePictureSize(const std::string& text, uint32_t* width, uint32_t* height);
 
 }  // namespace alpenglow::cli

@@ -61,7 +61,7 @@ void addProbe(CLI::App* app, Arguments* arguments) {
       ->required()
       ->type_name("Q.json");
   addRunOptions(command, "The answers to write, as JSON", &probe->run);
-  addMethodOption(command, &probe->method);
+  addMethodOptions(command, probe);
   addTableOptions(command, kKeepOrdersHelp, &probe->tables);
   addTableFileOption(command, &probe->tables);
   command->callback([probe] { runProbe(*probe); });

@@ -1,15 +1,11 @@
 #include <alpenglow/io/probe_file.h>
-#include <alpenglow/reference.h>
 
-#include <atomic>
 #include <ctime>
-#include <mutex>
-#include <thread>
 
 #include "commands.h"
 #include "failure.h"
 #include "outputs.h"
-#include "progress.h"
+#include "probe_reference.h"
 #include "tables.h"
 
 namespace alpenglow::cli {
@@ -49,7 +45,7 @@ void runOnDevice(const ProbeArguments& arguments, const io::AtmosphereSource& so
   }
 }
 
-void checkReferenceArguments(const TableArguments& tables, const io::Scene* scene) {
+void checkReferenceArguments(const TableArguments& tables) {
   if (!tables.tables.empty()) {
     throw Failure("--tables was given, but --method reference uses no tables.", Failure::kUsage);
   }
@@ -57,50 +53,23 @@ void checkReferenceArguments(const TableArguments& tables, const io::Scene* scen
     throw Failure(std::string(option) + " was given, but --method reference uses no tables.",
                   Failure::kUsage);
   }
-  const bool asked = tables.orders || (scene != nullptr && scene->orders);
-  const uint32_t orders = tables.orders                       ? parseOrders(*tables.orders)
-                          : scene != nullptr && scene->orders ? *scene->orders
-                                                              : 0;
-  if (orders == 1) return;
-  throw Failure("--method reference was asked for " +
-                    (asked ? std::to_string(orders) + " orders" : std::string("all orders")) +
-                    ", but this version's reference answers --orders 1 only.",
-                Failure::kUsage);
 }
 
-// The reference has no threads of its own, so the queries are dealt out here.
-std::vector<ReferenceAnswer> answerAll(const Parameters& parameters,
-                                       const std::vector<io::NamedQuery>& queries) {
-  std::vector<ReferenceAnswer> answers(queries.size());
-  std::atomic<size_t> next = 0;
-  std::atomic<size_t> failed = queries.size();
-  Progress bar("Integrating");
-  const auto work = [&](bool first) {
-    for (size_t i = next++; i < queries.size(); i = next++) {
-      if (referenceSingleScattering(parameters, queries[i].query, &answers[i]) != Status::Ok) {
-        failed = i;
-      }
-      if (first) bar.update(static_cast<double>(i) / static_cast<double>(queries.size()), "");
-    }
-  };
-  const size_t threads =
-      std::min<size_t>(std::max(1u, std::thread::hardware_concurrency()), queries.size());
-  std::vector<std::thread> others;
-  for (size_t i = 1; i < threads; ++i) others.emplace_back(work, false);
-  work(true);
-  for (std::thread& thread : others) thread.join();
-  if (failed < queries.size()) {
-    throw Failure("The reference can't answer query '" + queries[failed].id + "'.");
-  }
-  return answers;
+// The option's, else the scene's, else all.
+uint32_t referenceOrders(const TableArguments& tables, const io::Scene* scene) {
+  if (tables.orders) return parseOrders(*tables.orders);
+  return scene != nullptr && scene->orders ? *scene->orders : 0;
 }
 
 void runReference(const ProbeArguments& arguments, const io::AtmosphereSource& source,
                   const std::vector<io::NamedQuery>& queries) {
-  checkReferenceArguments(arguments.tables, source.scene ? &*source.scene : nullptr);
+  checkReferenceArguments(arguments.tables);
+  const uint32_t orders =
+      referenceOrders(arguments.tables, source.scene ? &*source.scene : nullptr);
   checkOutputs(arguments.run);
   const std::clock_t start = std::clock();
-  const std::vector<ReferenceAnswer> answers = answerAll(source.parameters, queries);
+  const std::vector<ReferenceAnswer> answers = answerByReference(
+      source.parameters, queries, orders, arguments.samples ? parseSamples(*arguments.samples) : 0);
   io::ReportPass pass;
   pass.name = "reference";
   pass.cpuSeconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
@@ -115,9 +84,13 @@ void runReference(const ProbeArguments& arguments, const io::AtmosphereSource& s
 }  // namespace
 
 void runProbe(const ProbeArguments& arguments) {
+  const bool byReference = arguments.method == "reference";
+  if (arguments.samples && !byReference) {
+    throw Failure("--samples was given, but --method tables traces no paths.", Failure::kUsage);
+  }
   const io::AtmosphereSource source = take(io::findAtmosphereOrScene(arguments.atmosphere));
   const std::vector<io::NamedQuery> queries = take(io::readQueries(arguments.queries));
-  if (arguments.method == "reference") {
+  if (byReference) {
     runReference(arguments, source, queries);
   } else {
     runOnDevice(arguments, source, queries);
