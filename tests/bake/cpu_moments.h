@@ -1,0 +1,127 @@
+// The moment solver's own text as C++ in double, reading tables that the device has baked: what the
+// tables of the next order must be.
+#pragma once
+
+#include "tests/bake/cpu_table.h"
+
+namespace alpenglow::moments_f64 {
+using namespace physics_f64;             // NOLINT: as the text has it
+using Spectrum = physics_f64::Spectrum;  // not the public one
+using testing::DoubleTable;
+
+#define IN(type) const type&
+#define OUT(type) type&
+#define ALPENGLOW_FN inline
+#define ALPENGLOW_PI 3.14159265358979323846
+#define SPECTRUM(value) Spectrum(value)
+#define REAL(literal) static_cast<double>(literal)
+
+/// One order at a time: set `depth`, and from order 2 on `field` and `source` of the order before;
+/// then solve().
+class Solver {
+ public:
+  DoubleTable depth_, field_, source_;
+
+  Solver(const Medium& medium, const MomentShape& shape) : medium_(medium), shape_(shape) {
+    fill(&rules_, ringCount(shape, kFineRings), 2, [&](int x, int y) {
+      const bool used = x < ringCount(shape, y == 0 ? 1 : kFineRings);
+      return used ? Spectrum(ringRule(shape, x, y), 0.0) : Spectrum(0.0);
+    });
+    fill(&legendre_, harmonics(), legendreRowOfSource(shape, 0) + int(shape.sourceTheta),
+         [&](int x, int y) { return Spectrum(legendreOfTexel(medium, shape, x, y)); });
+  }
+
+  /// Passes L, F, M and H.
+  void solve(bool first);
+
+  Spectrum readDepth(Real2 u) const { return Spectrum(depth_.sample(u[0], u[1], 0.5)); }
+  Spectrum readMoments(Real2 u) const { return Spectrum(field_.sample(u[0], u[1], 0.5)); }
+  Spectrum readSource(Real3 u) const { return Spectrum(source_.sample(u[0], u[1], u[2])); }
+  Spectrum readRadiance(Real2 u) const { return Spectrum(light_[0].sample(u[0], u[1], 0.5)); }
+  Spectrum readRadianceMie(Real2 u) const { return Spectrum(light_[1].sample(u[0], u[1], 0.5)); }
+  Spectrum readRadianceGround(Real2 u) const { return Spectrum(light_[2].sample(u[0], u[1], 0.5)); }
+  Spectrum fetchModes(int x, int y) { return fetch(&modes_, x, y); }
+  Spectrum fetchMoments(int x, int y) { return fetch(&moments_, x, y); }
+  Spectrum fetchSourceModes(int x, int y) { return fetch(&sourceModes_, x, y); }
+  Real2 fetchRule(int x, int y) { return Real2(fetch(&rules_, x, y)); }
+  Real fetchLegendre(int x, int y) { return fetch(&legendre_, x, y)[0]; }
+
+#include "shaders/glsl/physics/field_lookup.glsl"
+#include "shaders/glsl/physics/path_light.glsl"
+// After the two that it needs.
+#include "shaders/glsl/physics/moments.glsl"
+
+  NodeField field(int node, bool first) { return fieldOfNode(medium_, shape_, node, first); }
+  /// Texel x of a node, over `unit` (see sourceUnit).
+  Spectrum source(int x, int node, Spectrum mean) {
+    return sourceOfTexel(shape_, x, node) / sourceUnit(medium_, shape_, x, node, mean);
+  }
+
+ private:
+  static Spectrum fetch(DoubleTable* table, int x, int y) {
+    const double* texel = table->at(static_cast<uint32_t>(x), static_cast<uint32_t>(y), 0);
+    return {texel[0], texel[1], texel[2]};
+  }
+
+  template <class Function>
+  static void fill(DoubleTable* table, int width, int height, Function&& function) {
+    *table = DoubleTable(static_cast<uint32_t>(width), static_cast<uint32_t>(height), 1);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const Spectrum value = function(x, y);
+        double* texel = table->at(static_cast<uint32_t>(x), static_cast<uint32_t>(y), 0);
+        for (int c = 0; c < 3; ++c) texel[c] = value[c];
+      }
+  }
+
+  int harmonics() const { return (int(shape_.degree) + 1) * (int(shape_.degree) + 2) / 2; }
+
+  void makeSingle(int nodes) {
+    const int width = int(shape_.azimuths) * ringCount(shape_, kFineRings);
+    for (int which = 0; which < 3; ++which)
+      fill(&light_[which], width, nodes, [&](int x, int y) {
+        Spectrum part[3];
+        singleLight(medium_, shape_, x, y, part[0], part[1], part[2]);
+        return part[which];
+      });
+  }
+
+  void makeModes(bool first, int nodes) {
+    const int modes = int(shape_.degree) + 1, groups = modeGroups(shape_);
+    const int rings = ringCount(shape_, first ? kFineRings : 1);
+    fill(&modes_, modes * rings, nodes, [&](int x, int y) {
+      const int mode = x % modes;
+      const FourModes four =
+          modesOfRing(medium_, shape_, mode / 4 + groups * (x / modes), y, first);
+      return mode % 4 == 0 ? four.a : mode % 4 == 1 ? four.b : mode % 4 == 2 ? four.c : four.d;
+    });
+  }
+
+  Medium medium_;
+  MomentShape shape_;
+  DoubleTable rules_, legendre_, light_[3], modes_, moments_, sourceModes_;
+};
+
+inline void Solver::solve(bool first) {
+  const int nodes = int(shape_.nodesR) * int(shape_.nodesMuS);
+  if (first) {
+    makeSingle(nodes);
+  } else {
+    fill(&light_[0], int(shape_.azimuths) * ringCount(shape_, 1), nodes,
+         [&](int x, int y) { return multipleLight(medium_, shape_, x, y); });
+  }
+  makeModes(first, nodes);
+  fill(&moments_, harmonics(), nodes,
+       [&](int x, int y) { return momentOfNode(medium_, shape_, x, y, first); });
+  fill(&sourceModes_, (int(shape_.degree) + 1) * int(shape_.sourceTheta), nodes,
+       [&](int x, int y) { return sourceModeOfNode(medium_, shape_, x, y); });
+}
+
+#undef IN
+#undef OUT
+#undef ALPENGLOW_FN
+#undef ALPENGLOW_PI
+#undef SPECTRUM
+#undef REAL
+
+}  // namespace alpenglow::moments_f64
