@@ -9,12 +9,6 @@ namespace alpenglow {
 inline namespace v1 {
 namespace {
 
-Status nullArgument(const Tables* tables, const char* call) {
-  if (tables == nullptr) return Status::InvalidArgument;
-  return tables->resources().device().fail(Status::InvalidArgument, VK_SUCCESS,
-                                           "%s got a null argument, but needs all of them.", call);
-}
-
 // What a call defers to its frame would be freed while it is recorded, if that had completed.
 Status checkFrame(const Tables& tables, const FrameInfo& frame, const char* call) {
   if (frame.submitting > frame.completed) return Status::Ok;
@@ -27,6 +21,12 @@ Status checkFrame(const Tables& tables, const FrameInfo& frame, const char* call
 }
 
 }  // namespace
+
+Status nullArgument(const Tables* tables, const char* call) {
+  if (tables == nullptr) return Status::InvalidArgument;
+  return tables->resources().device().fail(Status::InvalidArgument, VK_SUCCESS,
+                                           "%s got a null argument, but needs all of them.", call);
+}
 
 TableSizes defaultTableSizes() { return {256, 64, 64, 16, 32, 128, 32, 8}; }
 

@@ -4,6 +4,7 @@
 #include <alpenglow/context.h>
 #include <alpenglow/parameters.h>
 #include <alpenglow/probe.h>
+#include <alpenglow/query.h>
 #include <alpenglow/tables.h>
 #include <alpenglow/types.h>
 #include <alpenglow/version.h>
