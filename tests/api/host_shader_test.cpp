@@ -2,6 +2,7 @@
 // alpenglow/atmosphere.glsl, with the set bound where the host wants it, and gets what probes
 // answer.
 #include <alpenglow/shaders/host_compute.h>
+#include <alpenglow/shaders/host_compute_standard.h>
 
 #include <cmath>
 #include <cstring>
@@ -21,7 +22,8 @@ struct Answer {
 /// The host's side: layouts, pool, set and pipeline of host.comp.
 class HostCompute {
  public:
-  HostCompute(headless::Device& device, VkDescriptorSetLayout tables) : device_(device) {
+  HostCompute(headless::Device& device, VkDescriptorSetLayout tables, Solver solver)
+      : device_(device) {
     const VkDescriptorSetLayoutBinding bindings[] = {
         {0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
         {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}};
@@ -40,7 +42,7 @@ class HostCompute {
     EXPECT_EQ(call<PFN_vkCreatePipelineLayout>("vkCreatePipelineLayout")(device.device(), &layout,
                                                                          nullptr, &layout_),
               VK_SUCCESS);
-    makePipeline();
+    makePipeline(solver);
     makeSet();
   }
   ~HostCompute() {
@@ -99,11 +101,12 @@ class HostCompute {
     return reinterpret_cast<Function>(device_.function(name));
   }
 
-  void makePipeline() {
+  void makePipeline(Solver solver) {
     VkShaderModuleCreateInfo code = {};
     code.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
-    code.codeSize = sizeof shaders::kHostCompute;
-    code.pCode = shaders::kHostCompute;
+    const bool standard = solver == Solver::Standard;
+    code.codeSize = standard ? sizeof shaders::kHostStandard : sizeof shaders::kHostCompute;
+    code.pCode = standard ? shaders::kHostStandard : shaders::kHostCompute;
     VkComputePipelineCreateInfo info = {};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
     info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -177,7 +180,13 @@ Question questionOf(const ProbeQuery& q) {
   return question;
 }
 
-TEST_F(SkyTest, AHostsShaderGetsWhatProbesAnswer) {
+class HostShaderTest : public SkyTest {
+ protected:
+  /// Errors up to 1e-3 of the value plus `absolute`.
+  void expectTheSame(Solver solver, Tables* tables, double absolute);
+};
+
+void HostShaderTest::expectTheSame(Solver solver, Tables* tables, double absolute) {
   std::vector<ProbeQuery> rays, surfaces;
   for (const double altitude : {0.0, 2.0, 8000.0, 1e5, 3.6e7}) {
     for (const double sunZenith : {0.4, 1.4, 1.65}) {
@@ -202,17 +211,16 @@ TEST_F(SkyTest, AHostsShaderGetsWhatProbesAnswer) {
     questions.push_back(questionOf(rays[i]));
     below.push_back(questionOf(surfaces[i]));
   }
-  HostCompute host(device(), tableSetLayout(context()));
-  const std::vector<Answer> got = host.ask(questions, tableSet(tables()));
-  const std::vector<Answer> light = host.ask(below, tableSet(tables()));
-  const std::vector<ProbeAnswer> wanted = probeAll(rays), wantedLight = probeAll(surfaces);
-  // As between pictures and probes: the host's ray is float, ours was double on the CPU. A
-  // segment's light is a difference of two reads of the table, hence the absolute part.
+  HostCompute host(device(), tableSetLayout(context()), solver);
+  const std::vector<Answer> got = host.ask(questions, tableSet(tables));
+  const std::vector<Answer> light = host.ask(below, tableSet(tables));
+  const std::vector<ProbeAnswer> wanted = probeAll(rays, tables);
+  const std::vector<ProbeAnswer> wantedLight = probeAll(surfaces, tables);
   for (size_t i = 0; i < rays.size(); ++i) {
     const bool whole = rays[i].distance_m < 0.0;
     for (uint32_t c = 0; c < kSpectrumSize; ++c) {
       const auto near = [&](double value, double reference, const char* what) {
-        EXPECT_NEAR(value, reference, 1e-3 * reference + 3e-6)
+        EXPECT_NEAR(value, reference, 1e-3 * reference + absolute)
             << what << " " << c << ": altitude " << rays[i].altitude_m << ", view "
             << rays[i].viewZenith << ", sun " << rays[i].sunZenith << ", distance "
             << rays[i].distance_m;
@@ -228,6 +236,22 @@ TEST_F(SkyTest, AHostsShaderGetsWhatProbesAnswer) {
       EXPECT_EQ(got[i].toSpace[0], 0.0f);
     }
   }
+}
+
+// As between pictures and probes: the host's ray is float, ours was double on the CPU.
+TEST_F(HostShaderTest, GetsWhatProbesAnswerFromMoments) {
+  TableDesc desc;
+  desc.quality = Quality::Draft;
+  Tables* moments = nullptr;
+  ASSERT_EQ(createTables(context(), preset("earth"), desc, &moments), Status::Ok) << message();
+  bakeAll(device(), moments);
+  expectTheSame(Solver::Moments, moments, 1e-12);
+  destroyTables(moments, device().frame());
+}
+
+// A segment's light is a difference of two reads of the table, hence the absolute part.
+TEST_F(HostShaderTest, GetsWhatProbesAnswerFromTheStandardTables) {
+  expectTheSame(Solver::Standard, tables(), 3e-6);
 }
 
 }  // namespace
