@@ -29,7 +29,7 @@ struct Task {
   Observer surfacePlace;
   uint32_t surfaceMost = kAllOrders;
   /// Light below which an error is not counted relative to the light; per channel.
-  Spectrum least_radiance;
+  Spectrum leastRadiance;
   /// The air's part that is known already, and what a unit of the surface's irradiance, and the
   /// direct light there, add to the surface's answer: they count in relative errors.
   Spectrum knownAir;
@@ -37,10 +37,21 @@ struct Task {
   Spectrum knownSurface;
 };
 
+/// A horizontal place over which the sun has this zenith cosine.
+Observer placeUnder(double h, double muS);
+
+/// The orders of a ray's answer after the first: its air, and the ground where it ends. `exact`:
+/// the answer of order 1.
+Task rayTask(const Medium& medium, const ProbeQuery& query, const ReferenceAnswer& exact,
+             uint32_t orders);
+
+/// The sky's light on a horizontal surface.
+Task irradianceTask(const Medium& medium, const ProbeQuery& query, uint32_t orders);
+
 struct TaskResult {
   Estimate air;
   Estimate surface;
-  uint64_t samples = 0;
+  uint64_t samples = 0;  ///< Paths of the part that took more.
 };
 
 /// Options as alpenglow::ReferenceOptions has them; `target` is the error to stop at.

@@ -1,5 +1,7 @@
 #include "atmosphere/reference/ray_nodes.h"
 
+#include "atmosphere/reference/rough_exp.h"
+
 namespace alpenglow::reference {
 namespace {
 
@@ -63,22 +65,27 @@ void RayNodes::place(double from, double to, double scale, int intervals) {
 }
 
 void RayNodes::fill(const Medium& m, const Stretch& stretch, double muS, double nu) {
+  const bool hasRayleigh =
+      m.rayleighScattering.y > 0.0 || m.rayleighScattering.z > 0.0 || m.rayleighScattering.x > 0.0;
+  const bool hasMie = m.mieExtinction.x > 0.0 || m.mieExtinction.y > 0.0 || m.mieExtinction.z > 0.0;
+  const bool hasAbsorption = m.absorptionExtinction.x > 0.0 || m.absorptionExtinction.y > 0.0 ||
+                             m.absorptionExtinction.z > 0.0;
+  const double perRayleigh = 1.0 / m.rayleighScaleHeight, perMie = 1.0 / m.mieScaleHeight;
   physics_f64::Spectrum depth(0.0), before(0.0);
   for (int i = 0; i < count_; ++i) {
     RayNode& n = nodes_[static_cast<size_t>(i)];
     n.h = std::min(physics_f64::altitudeAt(m, stretch.h, stretch.mu, n.t), m.thickness);
     n.muS = physics_f64::muSAt(m, stretch.h, muS, nu, n.t, n.h);
-    n.rayleigh = physics_f64::rayleighDensity(m, n.h);
-    n.mie = physics_f64::mieDensity(m, n.h);
-    const physics_f64::Spectrum extinction = m.rayleighScattering * n.rayleigh +
-                                             m.mieExtinction * n.mie +
-                                             physics_f64::tentExtinction(m, n.h);
+    n.rayleigh = hasRayleigh ? roughExp(-n.h * perRayleigh) : 0.0;
+    n.mie = hasMie ? roughExp(-n.h * perMie) : 0.0;
+    physics_f64::Spectrum extinction = m.rayleighScattering * n.rayleigh + m.mieExtinction * n.mie;
+    if (hasAbsorption) extinction += physics_f64::tentExtinction(m, n.h);
     if (i > 0) {
       const double step = n.t - nodes_[static_cast<size_t>(i - 1)].t;
       depth += 0.5 * step * (before + extinction);
     }
     before = extinction;
-    n.transmittance = exp(-depth);
+    n.transmittance = roughExp(-depth);
   }
 }
 

@@ -21,7 +21,7 @@ struct RayNode {
 class RayNodes {
  public:
   /// Intervals of each side of a point where steps are smallest.
-  static constexpr int kFine = 14;
+  static constexpr int kFine = 12;
   static constexpr int kCoarse = 7;
 
   /// The stretch lies in the atmosphere; `muS` and `nu` are those at its start.
