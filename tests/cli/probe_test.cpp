@@ -148,9 +148,62 @@ TEST_F(Probe, TablesOfAnotherKindAreRefused) {
   expectRefused(probeOf({"--tables", folder_ / "absent.exr"}), {"absent.exr"});
 }
 
+TEST_F(Probe, TheReferenceAnswersAllOrders) {
+  const std::vector<std::string> all = {"--method", "reference", "--samples", "4096"};
+  expectGood(joined(probeOf(all), {"--report", folder_ / "r.json"}));
+  EXPECT_EQ(schemaError(ALPENGLOW_SCHEMA_FOLDER, "answers.schema.json", jsonOf("a.json")), "");
+  EXPECT_EQ(schemaError(ALPENGLOW_SCHEMA_FOLDER, "report.schema.json", jsonOf("r.json")), "");
+  expectContract(answers());
+  const std::string text = contentsOf(folder_ / "a.json");
+  const nlohmann::json whole = answers();
+  EXPECT_GT(whole[1]["sky"][2], 0.02);
+  EXPECT_GT(whole[1]["standard_error"]["sky"][2], 0.0);
+  expectGood(probeOf(all));
+  EXPECT_EQ(contentsOf(folder_ / "a.json"), text) << "the same question, the same answer";
+
+  expectGood(joined(probeOf(all), {"--orders", "2"}));
+  const nlohmann::json two = answers();
+  expectGood(probeOf({"--method", "reference", "--orders", "1"}));
+  const nlohmann::json one = answers();
+  for (size_t c = 0; c < 3; ++c) {
+    const auto sky = [&](const nlohmann::json& list) {
+      return list[0]["sky_radiance"][c].get<double>();
+    };
+    EXPECT_GT(sky(two), 1.05 * sky(one));
+    EXPECT_GT(sky(whole), 1.005 * sky(two));
+    EXPECT_EQ(one[0]["transmittance"][c], whole[0]["transmittance"][c]);
+  }
+}
+
+TEST_F(Probe, MoreSamplesMeanSmallerErrors) {
+  double errors[2];
+  for (const bool many : {false, true}) {
+    expectGood(probeOf({"--method", "reference", "--samples", many ? "65536" : "4096"}));
+    errors[many ? 1 : 0] = answers()[0]["standard_error"]["sky_radiance"][2];
+  }
+  EXPECT_LT(errors[1], 0.6 * errors[0]);
+  EXPECT_GT(errors[1], 0.0);
+}
+
+// A scene's orders count, as they do with tables.
+TEST_F(Probe, TheReferenceTakesTheScenesOrders) {
+  const std::string scene = folder_.write("s.json", R"({"atmosphere": "earth", "orders": 1,
+      "sun": {"elevation_deg": 5, "azimuth_deg": 90, "disc_radius_deg": 0.2667},
+      "camera": {"latitude_deg": 0, "longitude_deg": 0, "altitude_m": 2, "heading_deg": 90,
+                 "pitch_deg": 10, "roll_deg": 0, "projection": "perspective", "fov_deg": 60}})");
+  std::vector<std::string> arguments = probeOf({"--method", "reference"});
+  arguments[1] = scene;
+  expectGood(arguments);
+  expectZeros(answers()[1]["sky"]);
+}
+
 TEST_F(Probe, TheReferenceRefusesWhatItHasNot) {
-  expectRefused(probeOf({"--method", "reference"}), {"all orders", "--orders 1"});
-  expectRefused(probeOf({"--method", "reference", "--orders", "2"}), {"2 orders", "--orders 1"});
+  expectRefused(probeOf({"--method", "reference", "--orders", "0"}), {"--orders", "'0'"});
+  for (const char* samples : {"0", "-1", "1e3", "many", "9999999999"}) {
+    expectRefused(probeOf({"--method", "reference", "--samples", samples}),
+                  {"--samples", samples, "from 1 to 999999999"});
+  }
+  expectRefused(probeOf({"--samples", "4096"}), {"--samples", "--method tables"});
   expectRefused(probeOf({"--method", "reference", "--orders", "1", "--tables", "t.exr"}),
                 {"--tables"});
   expectRefused(probeOf({"--method", "reference", "--orders", "1", "--format", "half"}),

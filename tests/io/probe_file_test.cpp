@@ -174,5 +174,63 @@ TEST(Answers, NothingThatIsNotFiniteIsWritten) {
   }
 }
 
+void expectSame(const ProbeAnswer& a, const ProbeAnswer& b, bool irradiance) {
+  EXPECT_EQ(a.hitsGround, irradiance ? false : b.hitsGround);
+  for (uint32_t c = 0; c < kSpectrumSize; ++c) {
+    EXPECT_EQ(a.transmittance[c], irradiance ? 0.0 : b.transmittance[c]);
+    EXPECT_EQ(a.skyRadiance[c], irradiance ? 0.0 : b.skyRadiance[c]);
+    EXPECT_EQ(a.groundRadiance[c], irradiance ? 0.0 : b.groundRadiance[c]);
+    EXPECT_EQ(a.direct[c], irradiance ? b.direct[c] : 0.0);
+    EXPECT_EQ(a.sky[c], irradiance ? b.sky[c] : 0.0);
+  }
+}
+
+TEST(Answers, AreReadBack) {
+  ReferenceAnswer answer;
+  answer.value = someAnswer();
+  answer.standardError = someAnswer();
+  answer.standardError.hitsGround = false;
+  const auto text = formatAnswers(bothQueries(), std::vector<ReferenceAnswer>(2, answer));
+  ASSERT_TRUE(text) << text.error;
+  const auto read = parseAnswers(*text, "a.json", bothQueries());
+  ASSERT_TRUE(read) << read.error;
+  ASSERT_EQ(read->size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    expectSame((*read)[i].value, answer.value, i == 1);
+    expectSame((*read)[i].standardError, answer.standardError, i == 1);
+  }
+  const auto plain = formatAnswers(bothQueries(), std::vector<ProbeAnswer>(2, someAnswer()));
+  const auto readPlain = parseAnswers(*plain, "a.json", bothQueries());
+  ASSERT_TRUE(readPlain) << readPlain.error;
+  EXPECT_EQ((*readPlain)[0].standardError.skyRadiance[0], 0.0);
+}
+
+TEST(Answers, OfOtherQueriesAreRefused) {
+  const auto text = formatAnswers(bothQueries(), std::vector<ProbeAnswer>(2, someAnswer()));
+  ASSERT_TRUE(text) << text.error;
+  const auto refused = [](const std::string& changed, const std::vector<NamedQuery>& queries,
+                          const std::string& word) {
+    const auto read = parseAnswers(changed, "a.json", queries);
+    EXPECT_FALSE(read) << changed;
+    expectSentence(read.error);
+    EXPECT_NE(read.error.find(word), std::string::npos) << read.error;
+  };
+  std::vector<NamedQuery> queries = bothQueries();
+  queries.pop_back();
+  refused(*text, queries, "answers");
+  queries = bothQueries();
+  std::swap(queries[0], queries[1]);
+  refused(*text, queries, queries[0].id);
+  nlohmann::json root = nlohmann::json::parse(*text);
+  root["answers"][0].erase("sky_radiance");
+  refused(root.dump(), bothQueries(), "sky_radiance");
+  root = nlohmann::json::parse(*text);
+  root["answers"][0]["hits_ground"] = 1;
+  refused(root.dump(), bothQueries(), "hits_ground");
+  root = nlohmann::json::parse(*text);
+  root["answers"][1]["extra"] = 1;
+  refused(root.dump(), bothQueries(), "extra");
+}
+
 }  // namespace
 }  // namespace alpenglow::io
