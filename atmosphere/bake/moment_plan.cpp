@@ -24,8 +24,8 @@
 namespace alpenglow::bake {
 namespace {
 
-/// kFineRings and kFineAzimuths of shaders/glsl/physics/moments.glsl.
-constexpr uint32_t kFineRings = 2, kFineAzimuths = 4;
+/// kFineRings of shaders/glsl/physics/moments.glsl.
+constexpr uint32_t kFineRings = 2;
 /// momentLayers() of shaders/glsl/physics/field.glsl.
 constexpr uint32_t kLayers = 5;
 
@@ -158,7 +158,7 @@ class Builder {
   uint32_t addSingle() {
     const uint32_t width = c_.azimuths * rings_ * kFineRings;
     for (uint32_t i = 0; i < 3; ++i)
-      single_[i] = floats("Alpenglow single scattering", width, nodes_, true);
+      single_[i] = floats("Alpenglow single scattering", width, nodes_, false);
     Stage single =
         stage(ALPENGLOW_SHADER(kMomentSingle), width, nodes_, uint64_t(c_.solverPanels) * 8);
     // The text of a ray's light reads field and source too, where there are such: here it never
@@ -181,9 +181,9 @@ class Builder {
 
   uint32_t addModes(bool first) {
     const uint32_t fine = first ? kFineRings : 1;
-    // An invocation makes four modes.
-    Stage modes = stage(ALPENGLOW_SHADER(kMomentModes), (modesPerRing_ + 3) / 4 * rings_ * fine,
-                        nodes_, uint64_t(c_.azimuths) * (first ? 3 * kFineAzimuths : 1));
+    // An invocation makes eight modes.
+    Stage modes = stage(ALPENGLOW_SHADER(kMomentModes), (modesPerRing_ + 7) / 8 * rings_ * fine,
+                        nodes_, uint64_t(c_.azimuths) * (first ? 3 : 1));
     modes.constants[0] = first;
     modes.inputs = {{kRules, rules_}};
     for (uint32_t i = 0; i < (first ? 3u : 1u); ++i)
@@ -242,7 +242,7 @@ class Builder {
                           addSource(true, 0)};
     Stages further[2] = {};
     if (orders_ > 2) {
-      light_ = floats("Alpenglow light", c_.azimuths * rings_, nodes_, true);
+      light_ = floats("Alpenglow light", c_.azimuths * rings_, nodes_, false);
       const uint32_t modes = addModes(false), harmonics = addHarmonics(false);
       for (uint32_t i = 0; i < (orders_ > 3 ? 2u : 1u); ++i) {
         further[i] = {addLight(i), modes, harmonics, addField(false, 1 - i),

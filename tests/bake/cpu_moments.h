@@ -37,9 +37,9 @@ class Solver {
   Spectrum readDepth(Real2 u) const { return Spectrum(depth_.sample(u[0], u[1], 0.5)); }
   Spectrum readMoments(Real2 u) const { return Spectrum(field_.sample(u[0], u[1], 0.5)); }
   Spectrum readSource(Real3 u) const { return Spectrum(source_.sample(u[0], u[1], u[2])); }
-  Spectrum readRadiance(Real2 u) const { return Spectrum(light_[0].sample(u[0], u[1], 0.5)); }
-  Spectrum readRadianceMie(Real2 u) const { return Spectrum(light_[1].sample(u[0], u[1], 0.5)); }
-  Spectrum readRadianceGround(Real2 u) const { return Spectrum(light_[2].sample(u[0], u[1], 0.5)); }
+  Spectrum fetchRadiance(int x, int y) { return fetch(&light_[0], x, y); }
+  Spectrum fetchRadianceMie(int x, int y) { return fetch(&light_[1], x, y); }
+  Spectrum fetchRadianceGround(int x, int y) { return fetch(&light_[2], x, y); }
   Spectrum fetchModes(int x, int y) { return fetch(&modes_, x, y); }
   Spectrum fetchMoments(int x, int y) { return fetch(&moments_, x, y); }
   Spectrum fetchSourceModes(int x, int y) { return fetch(&sourceModes_, x, y); }
@@ -91,9 +91,9 @@ class Solver {
     const int rings = ringCount(shape_, first ? kFineRings : 1);
     fill(&modes_, modes * rings, nodes, [&](int x, int y) {
       const int mode = x % modes;
-      const FourModes four =
-          modesOfRing(medium_, shape_, mode / 4 + groups * (x / modes), y, first);
-      return mode % 4 == 0 ? four.a : mode % 4 == 1 ? four.b : mode % 4 == 2 ? four.c : four.d;
+      const EightModes e = modesOfRing(medium_, shape_, mode / 8 + groups * (x / modes), y, first);
+      const Spectrum all[] = {e.a, e.b, e.c, e.d, e.e, e.f, e.g, e.h};
+      return all[mode % 8];
     });
   }
 

@@ -24,9 +24,11 @@ layout(set = 0, binding = 8) uniform sampler2D legendreTable;
 Spectrum readDepth(vec2 uv) { return textureLod(depthTable, uv, 0.0).rgb; }
 Spectrum readMoments(vec2 uv) { return textureLod(fieldTable, uv, 0.0).rgb; }
 Spectrum readSource(vec3 uvw) { return textureLod(sourceTable, uvw, 0.0).rgb; }
-Spectrum readRadiance(vec2 uv) { return textureLod(radianceTable, uv, 0.0).rgb; }
-Spectrum readRadianceMie(vec2 uv) { return textureLod(radianceMieTable, uv, 0.0).rgb; }
-Spectrum readRadianceGround(vec2 uv) { return textureLod(radianceGroundTable, uv, 0.0).rgb; }
+Spectrum fetchRadiance(int x, int y) { return texelFetch(radianceTable, ivec2(x, y), 0).rgb; }
+Spectrum fetchRadianceMie(int x, int y) { return texelFetch(radianceMieTable, ivec2(x, y), 0).rgb; }
+Spectrum fetchRadianceGround(int x, int y) {
+  return texelFetch(radianceGroundTable, ivec2(x, y), 0).rgb;
+}
 Spectrum fetchModes(int x, int y) { return texelFetch(modesTable, ivec2(x, y), 0).rgb; }
 Spectrum fetchMoments(int x, int y) { return texelFetch(momentsTable, ivec2(x, y), 0).rgb; }
 Spectrum fetchSourceModes(int x, int y) { return texelFetch(sourceModesTable, ivec2(x, y), 0).rgb; }

@@ -5,16 +5,23 @@
 
 layout(set = 1, binding = 0, rgba32f) uniform writeonly image2D modes;
 
+void put(Spectrum value, int mode, int ring, int size, int node) {
+  if (mode < size) imageStore(modes, ivec2(mode + size * ring, node), vec4(value, 0.0));
+}
+
 void main() {
   ivec3 texel = tileTexel();
   if (texel.z < 0) return;
-  FourModes four = modesOfRing(medium, shape, texel.x, texel.y, kFirstOrder);
+  EightModes eight = modesOfRing(medium, shape, texel.x, texel.y, kFirstOrder);
   int size = int(shape.degree) + 1;
   int ring = texel.x / modeGroups(shape);
-  int mode = 4 * (texel.x - ring * modeGroups(shape));
-  ivec2 at = ivec2(mode + size * ring, texel.y);
-  imageStore(modes, at, vec4(four.a, 0.0));
-  if (mode + 1 < size) imageStore(modes, at + ivec2(1, 0), vec4(four.b, 0.0));
-  if (mode + 2 < size) imageStore(modes, at + ivec2(2, 0), vec4(four.c, 0.0));
-  if (mode + 3 < size) imageStore(modes, at + ivec2(3, 0), vec4(four.d, 0.0));
+  int mode = 8 * (texel.x - ring * modeGroups(shape));
+  put(eight.a, mode, ring, size, texel.y);
+  put(eight.b, mode + 1, ring, size, texel.y);
+  put(eight.c, mode + 2, ring, size, texel.y);
+  put(eight.d, mode + 3, ring, size, texel.y);
+  put(eight.e, mode + 4, ring, size, texel.y);
+  put(eight.f, mode + 5, ring, size, texel.y);
+  put(eight.g, mode + 6, ring, size, texel.y);
+  put(eight.h, mode + 7, ring, size, texel.y);
 }

@@ -3,7 +3,7 @@
 // rays (L), taken apart into azimuthal modes (F) and harmonics (M), multiplied with the coefficients of the
 // aerosols' phase function, and put together again as the source of the next order (H, J). What molecules
 // scatter needs second moments only (N). The includer defines, besides the reads of field_lookup.glsl:
-//   Spectrum readRadiance(Real2 uv), readRadianceMie(Real2 uv), readRadianceGround(Real2 uv)   pass L
+//   Spectrum fetchRadiance(int x, int y), fetchRadianceMie(...), fetchRadianceGround(...)   pass L
 //   Spectrum fetchModes(int x, int y), fetchMoments(int x, int y), fetchSourceModes(int x, int y)
 //   Real2 fetchRule(int x, int y); Real fetchLegendre(int x, int y)
 // A node's index is i_mus + nodesMuS * i_r.
@@ -149,50 +149,103 @@ ALPENGLOW_FN Spectrum multipleLight(IN(Medium) m, IN(MomentShape) s, int x, int 
   return light.multiple + (ray.hitsGround ? up : SPECTRUM(REAL(0.0)));
 }
 
-// --- Pass F: the integral of L cos(m phi) over a ring, four modes at once, since their sums share the
-// phase functions. x = group + modeGroups * ring; the modes are 4 group ... 4 group + 3.
+// --- Pass F: the integral of L cos(m phi) over a ring, eight modes at once, since their sums share the
+// phase functions. x = group + modeGroups * ring; the modes are 8 group ... 8 group + 7.
 
-ALPENGLOW_FN int modeGroups(IN(MomentShape) s) { return (int(s.degree) + 4) / 4; }
+ALPENGLOW_FN int modeGroups(IN(MomentShape) s) { return (int(s.degree) + 8) / 8; }
 
-struct FourModes {
-  Spectrum a, b, c, d;
+struct EightModes {
+  Spectrum a, b, c, d, e, f, g, h;
 };
 
-ALPENGLOW_FN FourModes modesOfRing(IN(Medium) m, IN(MomentShape) s, int x, int node,
-                                   bool firstOrder) {
-  int fine = firstOrder ? kFineRings : 1;
-  int index = x / modeGroups(s);
-  Real mode = REAL(4.0) * Real(x - index * modeGroups(s));
-  NodePoint p = nodePoint(m, s, node);
-  Ring ring = makeRing(m, s, p.h, index, fine, fetchRule(index, firstOrder ? 1 : 0));
-  Real spread = sqrt(max((REAL(1.0) - ring.mu * ring.mu) * (REAL(1.0) - p.muS * p.muS), REAL(0.0)));
-  Real width = s.azimuths * Real(ringCount(s, fine));
-  Real v = (Real(node) + REAL(0.5)) / (s.nodesMuS * s.nodesR);
-  int count = int(s.azimuths) * (firstOrder ? kFineAzimuths : 1);
-  FourModes sum;
-  sum.a = sum.b = sum.c = sum.d = SPECTRUM(REAL(0.0));
-  for (int i = 0; i < count; ++i) {
-    Real turn = (Real(i) + REAL(0.5)) / Real(count);
-    Real phi = turn * REAL(ALPENGLOW_PI);
-    Real u = (s.azimuths * Real(index) +
-              clamp(turn * s.azimuths, REAL(0.5), s.azimuths - REAL(0.5))) / width;
-    Spectrum light = readRadiance(Real2(u, v));
-    if (firstOrder) {
-      Real nu = clamp(ring.mu * p.muS + spread * cos(phi), REAL(-1.0), REAL(1.0));
-      light = light * rayleighPhase(nu) +
-              readRadianceMie(Real2(u, v)) * miePhase(m.mieAsymmetry, nu) +
-              readRadianceGround(Real2(u, v));
+// Adds light at azimuth phi: cos((m + 1) phi) = 2 cos(phi) cos(m phi) - cos((m - 1) phi).
+ALPENGLOW_FN EightModes addLight(IN(EightModes) sum, Spectrum light, Real mode, Real phi) {
+  EightModes r;
+  Real twice = REAL(2.0) * cos(phi);
+  Real c0 = cos(mode * phi);
+  Real c1 = cos((mode + REAL(1.0)) * phi);
+  Real c2 = twice * c1 - c0;
+  Real c3 = twice * c2 - c1;
+  Real c4 = twice * c3 - c2;
+  Real c5 = twice * c4 - c3;
+  Real c6 = twice * c5 - c4;
+  r.a = sum.a + light * c0;
+  r.b = sum.b + light * c1;
+  r.c = sum.c + light * c2;
+  r.d = sum.d + light * c3;
+  r.e = sum.e + light * c4;
+  r.f = sum.f + light * c5;
+  r.g = sum.g + light * c6;
+  r.h = sum.h + light * (twice * c6 - c5);
+  return r;
+}
+
+// Order 1: its light between two azimuths is linear, but for the phase functions, which are taken
+// kFineAzimuths times between. Beyond the first and the last azimuth the light goes on as their
+// mirror image, and counts half.
+ALPENGLOW_FN EightModes singleModes(IN(Medium) m, IN(MomentShape) s, int first, int node, Real mode,
+                                    Real cosines, Real sines, IN(EightModes) none) {
+  EightModes sum = none;
+  int azimuths = int(s.azimuths);
+  Spectrum rayleigh = fetchRadiance(first, node);
+  Spectrum mie = fetchRadianceMie(first, node);
+  Spectrum ground = fetchRadianceGround(first, node);
+  for (int i = 0; i <= azimuths; ++i) {
+    int next = first + min(i, azimuths - 1);
+    Spectrum nextRayleigh = fetchRadiance(next, node);
+    Spectrum nextMie = fetchRadianceMie(next, node);
+    Spectrum nextGround = fetchRadianceGround(next, node);
+    Real weight = (i == 0 || i == azimuths ? REAL(0.5) : REAL(1.0)) / Real(kFineAzimuths);
+    for (int k = 0; k < kFineAzimuths; ++k) {
+      Real share = (Real(k) + REAL(0.5)) / Real(kFineAzimuths);
+      Real phi = (Real(i) + share - REAL(0.5)) * REAL(ALPENGLOW_PI) / s.azimuths;
+      Real nu = clamp(cosines + sines * cos(phi), REAL(-1.0), REAL(1.0));
+      Spectrum light = mix(rayleigh, nextRayleigh, share) * rayleighPhase(nu) +
+                       mix(mie, nextMie, share) * miePhase(m.mieAsymmetry, nu) +
+                       mix(ground, nextGround, share);
+      sum = addLight(sum, light * weight, mode, phi);
     }
-    sum.a += light * cos(mode * phi);
-    sum.b += light * cos((mode + REAL(1.0)) * phi);
-    sum.c += light * cos((mode + REAL(2.0)) * phi);
-    sum.d += light * cos((mode + REAL(3.0)) * phi);
+    rayleigh = nextRayleigh;
+    mie = nextMie;
+    ground = nextGround;
   }
-  Real weight = REAL(2.0) * REAL(ALPENGLOW_PI) / Real(count);
+  return sum;
+}
+
+ALPENGLOW_FN EightModes multipleModes(IN(MomentShape) s, int first, int node, Real mode,
+                                      IN(EightModes) none) {
+  EightModes sum = none;
+  for (int i = 0; i < int(s.azimuths); ++i) {
+    Real phi = (Real(i) + REAL(0.5)) * REAL(ALPENGLOW_PI) / s.azimuths;
+    sum = addLight(sum, fetchRadiance(first + i, node), mode, phi);
+  }
+  return sum;
+}
+
+ALPENGLOW_FN EightModes modesOfRing(IN(Medium) m, IN(MomentShape) s, int x, int node,
+                                    bool firstOrder) {
+  int index = x / modeGroups(s);
+  Real mode = REAL(8.0) * Real(x - index * modeGroups(s));
+  int first = int(s.azimuths) * index;
+  EightModes sum;
+  sum.a = sum.b = sum.c = sum.d = sum.e = sum.f = sum.g = sum.h = SPECTRUM(REAL(0.0));
+  if (firstOrder) {
+    NodePoint p = nodePoint(m, s, node);
+    Ring ring = makeRing(m, s, p.h, index, kFineRings, fetchRule(index, 1));
+    Real sines = sqrt(max((REAL(1.0) - ring.mu * ring.mu) * (REAL(1.0) - p.muS * p.muS), REAL(0.0)));
+    sum = singleModes(m, s, first, node, mode, ring.mu * p.muS, sines, sum);
+  } else {
+    sum = multipleModes(s, first, node, mode, sum);
+  }
+  Real weight = REAL(2.0) * REAL(ALPENGLOW_PI) / s.azimuths;
   sum.a *= weight;
   sum.b *= weight;
   sum.c *= weight;
   sum.d *= weight;
+  sum.e *= weight;
+  sum.f *= weight;
+  sum.g *= weight;
+  sum.h *= weight;
   return sum;
 }
 
@@ -324,9 +377,17 @@ ALPENGLOW_FN Spectrum sourceOfTexel(IN(MomentShape) s, int x, int node) {
   int modes = int(s.degree) + 1;
   int first = (x - index * thetas) * modes;
   Real phi = REAL(ALPENGLOW_PI) * unitFromTexel(Real(index), s.sourcePhi);
+  // cos((m + 1) phi) = 2 cos(phi) cos(m phi) - cos((m - 1) phi).
+  Real twice = REAL(2.0) * cos(phi);
+  Real before = cos(phi);
+  Real now = REAL(1.0);
   Spectrum sum = SPECTRUM(REAL(0.0));
-  for (int mode = 0; mode < modes; ++mode)
-    sum += fetchSourceModes(first + mode, node) * cos(Real(mode) * phi);
+  for (int mode = 0; mode < modes; ++mode) {
+    sum += fetchSourceModes(first + mode, node) * now;
+    Real next = twice * now - before;
+    before = now;
+    now = next;
+  }
   return max(sum, SPECTRUM(REAL(0.0)));
 }
 
