@@ -195,9 +195,9 @@ class Builder {
   uint32_t addHarmonics(bool first) {
     const uint32_t fine = first ? kFineRings : 1;
     Stage harmonics =
-        stage(ALPENGLOW_SHADER(kMomentHarmonics), harmonics_, nodes_, uint64_t(rings_) * fine * 3);
+        stage(ALPENGLOW_SHADER(kMomentHarmonics), harmonics_, nodes_, uint64_t(rings_) * fine * 2);
     harmonics.constants[0] = first;
-    harmonics.inputs = {{kModes, modes_}, {kRules, rules_}, {kLegendre, legendre_}};
+    harmonics.inputs = {{kModes, modes_}, {kLegendre, legendre_}};
     harmonics.outputs = {{moments_}};
     return plan_.addStage(harmonics);
   }

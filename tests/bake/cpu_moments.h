@@ -112,9 +112,9 @@ inline void Solver::solve(bool first) {
   }
   makeModes(first, nodes);
   fill(&moments_, harmonics(), nodes,
-       [&](int x, int y) { return momentOfNode(medium_, shape_, x, y, first); });
+       [&](int x, int y) { return momentOfNode(shape_, x, y, first); });
   fill(&sourceModes_, (int(shape_.degree) + 1) * int(shape_.sourceTheta), nodes,
-       [&](int x, int y) { return sourceModeOfNode(medium_, shape_, x, y); });
+       [&](int x, int y) { return sourceModeOfNode(shape_, x, y); });
 }
 
 #undef IN

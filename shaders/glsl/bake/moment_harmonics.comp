@@ -9,5 +9,5 @@ void main() {
   ivec3 texel = tileTexel();
   if (texel.z < 0) return;
   imageStore(moments, texel.xy,
-             vec4(momentOfNode(medium, shape, texel.x, texel.y, kFirstOrder), 0.0));
+             vec4(momentOfNode(shape, texel.x, texel.y, kFirstOrder), 0.0));
 }

@@ -9,5 +9,5 @@ void main() {
   ivec3 texel = tileTexel();
   if (texel.z < 0) return;
   imageStore(sourceModes, texel.xy,
-             vec4(sourceModeOfNode(medium, shape, texel.x, texel.y), 0.0));
+             vec4(sourceModeOfNode(shape, texel.x, texel.y), 0.0));
 }

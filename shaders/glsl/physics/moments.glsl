@@ -143,7 +143,10 @@ ALPENGLOW_FN void singleLight(IN(Medium) m, IN(MomentShape) s, int x, int node,
 // Order n >= 2: S[L] of the order before from its source, and R[L] of its irradiance.
 ALPENGLOW_FN Spectrum multipleLight(IN(Medium) m, IN(MomentShape) s, int x, int node) {
   Ray ray = rayOfTexel(m, s, x, node, 1);
-  PathLight light = lightOfPath(m, s, ray, ray.extent, int(s.solverPanels), false, true);
+  // Its sources are smoother than sunlight: a panel less changes fields by less than 0.1 % by day and in
+  // civil twilight, 0.2 % later, as the panel more would.
+  int panels = int(s.solverPanels) - (s.solverPanels > REAL(3.5) ? 1 : 0);
+  PathLight light = lightOfPath(m, s, ray, ray.extent, panels, false, true);
   Spectrum up = m.groundAlbedo / REAL(ALPENGLOW_PI) * exp(-light.depth) *
                 fieldIrradiance(m, s, REAL(0.0), muSAtGround(m, ray));
   return light.multiple + (ray.hitsGround ? up : SPECTRUM(REAL(0.0)));
@@ -280,7 +283,8 @@ ALPENGLOW_FN int degreeOf(int x) {
 }
 
 // Rows of the table of Legendre functions: the rings of each altitude, those of order 1, and the
-// zenith angles of the sources.
+// zenith angles of the sources. The functions are stored times what every sum over them has: the ring's
+// weight, or the aerosols' coefficient.
 ALPENGLOW_FN int legendreRow(IN(MomentShape) s, int r, int ring, int fine) {
   int coarse = ringCount(s, 1) * int(s.nodesR);
   return fine == 1 ? r * ringCount(s, 1) + ring : coarse + r * ringCount(s, kFineRings) + ring;
@@ -294,50 +298,16 @@ ALPENGLOW_FN Real sourceMu(IN(MomentShape) s, int theta) {
   return cos(REAL(ALPENGLOW_PI) * unitFromTexel(Real(theta), s.sourceTheta));
 }
 
-ALPENGLOW_FN Real legendreOfTexel(IN(Medium) m, IN(MomentShape) s, int x, int y) {
-  int coarse = ringCount(s, 1);
-  int fine = ringCount(s, kFineRings);
-  int fineRow = y - coarse * int(s.nodesR);
-  int sourceRow = y - legendreRowOfSource(s, 0);
-  bool isFine = fineRow >= 0;
-  int r = isFine ? fineRow / fine : y / coarse;
-  int ring = isFine ? fineRow - r * fine : y - r * coarse;
-  Real mu;
-  if (sourceRow >= 0) {
-    mu = sourceMu(s, sourceRow);
-  } else {
-    Real h = nodeH(m, s, unitFromTexel(Real(r), s.nodesR));
-    mu = makeRing(m, s, h, ring, isFine ? kFineRings : 1, fetchRule(ring, isFine ? 1 : 0)).mu;
-  }
-  int l = degreeOf(x);
-  return legendre(l, x - l * (l + 1) / 2, mu);
-}
-
-// --- Pass M: the coefficient of L for harmonic x = l (l + 1) / 2 + m.
-
-ALPENGLOW_FN Spectrum momentOfNode(IN(Medium) m, IN(MomentShape) s, int x, int node,
-                                   bool firstOrder) {
-  int fine = firstOrder ? kFineRings : 1;
-  int l = degreeOf(x);
-  int mode = x - l * (l + 1) / 2;
-  int modes = int(s.degree) + 1;
-  NodePoint p = nodePoint(m, s, node);
-  int rings = ringCount(s, fine);
-  Spectrum sum = SPECTRUM(REAL(0.0));
-  for (int i = 0; i < rings; ++i) {
-    Ring ring = makeRing(m, s, p.h, i, fine, fetchRule(i, firstOrder ? 1 : 0));
-    sum += fetchModes(mode + modes * i, node) *
-           (ring.weight * fetchLegendre(x, legendreRow(s, p.r, i, fine)));
-  }
-  return sum * (mode == 0 ? REAL(1.0) : REAL(1.41421356237309505));
-}
-
-// --- Pass H: mode m of what aerosols scatter into zenith angle theta. x = m + (degree + 1) * theta.
-
 // Coefficient l of Cornette-Shanks: 2 pi times the integral of P_M P_l. The phase function is
 // Henyey-Greenstein's times 3/2 (1 + nu^2) / (2 + g^2), and nu^2 mixes three neighbours of g^l.
-ALPENGLOW_FN Real mieCoefficient(Real g, int l, Real power, Real powerBelow) {
+ALPENGLOW_FN Real mieCoefficient(Real g, int l) {
   Real k = Real(l);
+  Real power = REAL(1.0);       // g^l
+  Real powerBelow = REAL(0.0);  // g^(l - 2)
+  for (int i = 0; i < l; ++i) {
+    powerBelow = i == l - 2 ? power : powerBelow;
+    power *= g;
+  }
   Real up = (k + REAL(1.0)) * (k + REAL(2.0)) / ((REAL(2.0) * k + REAL(1.0)) * (REAL(2.0) * k + REAL(3.0)));
   Real own = (k + REAL(1.0)) * (k + REAL(1.0)) / ((REAL(2.0) * k + REAL(1.0)) * (REAL(2.0) * k + REAL(3.0))) +
              k * k / (REAL(4.0) * k * k - REAL(1.0));
@@ -347,26 +317,57 @@ ALPENGLOW_FN Real mieCoefficient(Real g, int l, Real power, Real powerBelow) {
          (power * (REAL(1.0) + own) + up * power * g * g + down * powerBelow);
 }
 
-ALPENGLOW_FN Spectrum sourceModeOfNode(IN(Medium) m, IN(MomentShape) s, int x, int node) {
-  int modes = int(s.degree) + 1;
-  int theta = x / modes;
-  int mode = x - theta * modes;
-  Real g = m.mieAsymmetry;
-  Real power = REAL(1.0);       // g^l
-  Real powerBelow = REAL(0.0);  // g^(l - 2)
-  Real powerBefore = REAL(0.0);
-  Spectrum sum = SPECTRUM(REAL(0.0));
-  for (int l = 0; l < modes; ++l) {
-    if (l >= mode) {
-      sum += fetchMoments(l * (l + 1) / 2 + mode, node) *
-             (mieCoefficient(g, l, power, powerBelow) *
-              fetchLegendre(l * (l + 1) / 2 + mode, legendreRowOfSource(s, theta)));
-    }
-    powerBelow = powerBefore;
-    powerBefore = power;
-    power *= g;
+ALPENGLOW_FN Real legendreOfTexel(IN(Medium) m, IN(MomentShape) s, int x, int y) {
+  int coarse = ringCount(s, 1);
+  int fine = ringCount(s, kFineRings);
+  int fineRow = y - coarse * int(s.nodesR);
+  int sourceRow = y - legendreRowOfSource(s, 0);
+  bool isFine = fineRow >= 0;
+  int r = isFine ? fineRow / fine : y / coarse;
+  int ring = isFine ? fineRow - r * fine : y - r * coarse;
+  int l = degreeOf(x);
+  int mode = x - l * (l + 1) / 2;
+  Real factor = mode == 0 ? REAL(1.0) : REAL(1.41421356237309505);
+  Real mu;
+  if (sourceRow >= 0) {
+    mu = sourceMu(s, sourceRow);
+    factor *= mieCoefficient(m.mieAsymmetry, l);
+  } else {
+    Real h = nodeH(m, s, unitFromTexel(Real(r), s.nodesR));
+    Ring cone = makeRing(m, s, h, ring, isFine ? kFineRings : 1, fetchRule(ring, isFine ? 1 : 0));
+    mu = cone.mu;
+    factor *= cone.weight;
   }
-  return sum * (mode == 0 ? REAL(1.0) : REAL(1.41421356237309505));
+  return legendre(l, mode, mu) * factor;
+}
+
+// --- Pass M: the coefficient of L for harmonic x = l (l + 1) / 2 + m.
+
+ALPENGLOW_FN Spectrum momentOfNode(IN(MomentShape) s, int x, int node, bool firstOrder) {
+  int fine = firstOrder ? kFineRings : 1;
+  int l = degreeOf(x);
+  int mode = x - l * (l + 1) / 2;
+  int modes = int(s.degree) + 1;
+  int rings = ringCount(s, fine);
+  int row = legendreRow(s, node / int(s.nodesMuS), 0, fine);
+  Spectrum sum = SPECTRUM(REAL(0.0));
+  for (int i = 0; i < rings; ++i)
+    sum += fetchModes(mode + modes * i, node) * fetchLegendre(x, row + i);
+  return sum;
+}
+
+// --- Pass H: mode m of what aerosols scatter into zenith angle theta. x = theta + thetas * m.
+
+ALPENGLOW_FN Spectrum sourceModeOfNode(IN(MomentShape) s, int x, int node) {
+  int thetas = int(s.sourceTheta);
+  int mode = x / thetas;
+  int row = legendreRowOfSource(s, x - mode * thetas);
+  Spectrum sum = SPECTRUM(REAL(0.0));
+  for (int l = mode; l <= int(s.degree); ++l) {
+    int harmonic = l * (l + 1) / 2 + mode;
+    sum += fetchMoments(harmonic, node) * fetchLegendre(harmonic, row);
+  }
+  return sum;
 }
 
 // --- Pass J: what aerosols scatter, per beta_M. x = theta + thetas * phi, y = i_mus, z = i_r.
@@ -375,7 +376,7 @@ ALPENGLOW_FN Spectrum sourceOfTexel(IN(MomentShape) s, int x, int node) {
   int thetas = int(s.sourceTheta);
   int index = x / thetas;
   int modes = int(s.degree) + 1;
-  int first = (x - index * thetas) * modes;
+  int theta = x - index * thetas;
   Real phi = REAL(ALPENGLOW_PI) * unitFromTexel(Real(index), s.sourcePhi);
   // cos((m + 1) phi) = 2 cos(phi) cos(m phi) - cos((m - 1) phi).
   Real twice = REAL(2.0) * cos(phi);
@@ -383,7 +384,7 @@ ALPENGLOW_FN Spectrum sourceOfTexel(IN(MomentShape) s, int x, int node) {
   Real now = REAL(1.0);
   Spectrum sum = SPECTRUM(REAL(0.0));
   for (int mode = 0; mode < modes; ++mode) {
-    sum += fetchSourceModes(first + mode, node) * now;
+    sum += fetchSourceModes(theta + thetas * mode, node) * now;
     Real next = twice * now - before;
     before = now;
     now = next;
