@@ -143,8 +143,7 @@ ALPENGLOW_FN void singleLight(IN(Medium) m, IN(MomentShape) s, int x, int node,
 // Order n >= 2: S[L] of the order before from its source, and R[L] of its irradiance.
 ALPENGLOW_FN Spectrum multipleLight(IN(Medium) m, IN(MomentShape) s, int x, int node) {
   Ray ray = rayOfTexel(m, s, x, node, 1);
-  // Its sources are smoother than sunlight: a panel less changes fields by less than 0.1 % by day and in
-  // civil twilight, 0.2 % later, as the panel more would.
+  // Its sources are smoother than sunlight: a panel less costs no accuracy that the others leave.
   int panels = int(s.solverPanels) - (s.solverPanels > REAL(3.5) ? 1 : 0);
   PathLight light = lightOfPath(m, s, ray, ray.extent, panels, false, true);
   Spectrum up = m.groundAlbedo / REAL(ALPENGLOW_PI) * exp(-light.depth) *
@@ -156,6 +155,9 @@ ALPENGLOW_FN Spectrum multipleLight(IN(Medium) m, IN(MomentShape) s, int x, int 
 // phase functions. x = group + modeGroups * ring; the modes are 8 group ... 8 group + 7.
 
 ALPENGLOW_FN int modeGroups(IN(MomentShape) s) { return (int(s.degree) + 8) / 8; }
+
+// Weight of an azimuth: half a turn, twice.
+ALPENGLOW_FN Real ringStep(IN(MomentShape) s) { return REAL(2.0) * REAL(ALPENGLOW_PI) / s.azimuths; }
 
 struct EightModes {
   Spectrum a, b, c, d, e, f, g, h;
@@ -198,7 +200,7 @@ ALPENGLOW_FN EightModes singleModes(IN(Medium) m, IN(MomentShape) s, int first, 
     Spectrum nextRayleigh = fetchRadiance(next, node);
     Spectrum nextMie = fetchRadianceMie(next, node);
     Spectrum nextGround = fetchRadianceGround(next, node);
-    Real weight = (i == 0 || i == azimuths ? REAL(0.5) : REAL(1.0)) / Real(kFineAzimuths);
+    Real weight = ringStep(s) * (i == 0 || i == azimuths ? REAL(0.5) : REAL(1.0)) / Real(kFineAzimuths);
     for (int k = 0; k < kFineAzimuths; ++k) {
       Real share = (Real(k) + REAL(0.5)) / Real(kFineAzimuths);
       Real phi = (Real(i) + share - REAL(0.5)) * REAL(ALPENGLOW_PI) / s.azimuths;
@@ -220,7 +222,7 @@ ALPENGLOW_FN EightModes multipleModes(IN(MomentShape) s, int first, int node, Re
   EightModes sum = none;
   for (int i = 0; i < int(s.azimuths); ++i) {
     Real phi = (Real(i) + REAL(0.5)) * REAL(ALPENGLOW_PI) / s.azimuths;
-    sum = addLight(sum, fetchRadiance(first + i, node), mode, phi);
+    sum = addLight(sum, fetchRadiance(first + i, node) * ringStep(s), mode, phi);
   }
   return sum;
 }
@@ -240,15 +242,6 @@ ALPENGLOW_FN EightModes modesOfRing(IN(Medium) m, IN(MomentShape) s, int x, int 
   } else {
     sum = multipleModes(s, first, node, mode, sum);
   }
-  Real weight = REAL(2.0) * REAL(ALPENGLOW_PI) / s.azimuths;
-  sum.a *= weight;
-  sum.b *= weight;
-  sum.c *= weight;
-  sum.d *= weight;
-  sum.e *= weight;
-  sum.f *= weight;
-  sum.g *= weight;
-  sum.h *= weight;
   return sum;
 }
 
