@@ -18,6 +18,7 @@ fi
 for name in "${names[@]}"; do
   case "$name" in
     earth | earth-fig6) samples=() ;;  # Until the targets.
+    haze*) samples=(--samples 262144) ;;
     earth-* | mars) samples=(--samples 131072) ;;
     *) samples=(--samples 65536) ;;
   esac

@@ -11,7 +11,7 @@ using physics_f64::Spectrum;
 constexpr double kPi = std::numbers::pi;
 /// A path goes on surely while it promises at least this share of the whole; below, by chance.
 constexpr double kSurvival = 0.3;
-constexpr double kLeastSurvival = 0.02;
+constexpr double kLeastSurvival = 0.1;
 
 double sumOf(const Spectrum& s) { return s.x + s.y + s.z; }
 
@@ -151,8 +151,11 @@ PathTracer::Drawn PathTracer::drawInAir(const Path& path, const Hit& hit, const 
                                         double rayleighShare, PathSampler& sampler) const {
   const double g = medium_.mieAsymmetry;
   const GuideLobe guided(guide_.directionsAt(hit.h, hit.muS), hit.normal, path.sun);
-  const double aureole = 0.4 * (1.0 - rayleighShare) * directPart(light);
-  const Lobes lobes(guided, path.sun, g, aureole, 0.45);
+  // Peaked phase functions keep most for themselves: a path through haze scatters many times, and
+  // each time a sample of theirs weighs the more the less they are trusted.
+  const double dust = 1.0 - rayleighShare;
+  const double aureole = 0.15 * dust * directPart(light);
+  const Lobes lobes(guided, path.sun, g, aureole, 0.45 * rayleighShare + 0.12 * dust);
   const double choice = sampler.leading(), u = sampler.leading(), v = sampler.leading();
   const Vector direction = lobes.sample(choice, u, v, [&](double own, double x, double y) {
     return around(path.direction, own < rayleighShare ? sampleRayleigh(x) : sampleGreenstein(g, x),
