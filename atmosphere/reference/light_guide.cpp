@@ -55,7 +55,6 @@ double DirectionGrid::density(double mu, double cosPhi) const {
 
 LightGuide::LightGuide(const Medium& medium, const Columns& columns)
     : medium_(medium),
-      columns_(columns),
       nodes_(static_cast<size_t>(kAltitudes) * kSuns),
       cells_(nodes_.size() * DirectionGrid::kCells),
       sunPosition_(kLookup + 2) {

@@ -67,7 +67,6 @@ class LightGuide {
   physics_f64::Spectrum radiance(double h, double mu, double muS, double nu) const;
 
   const Medium& medium_;
-  const Columns& columns_;
   std::vector<Node> nodes_;
   std::vector<float> cells_;        ///< DirectionGrid's sums of each node.
   std::vector<float> sunPosition_;  ///< Grid coordinate over mu_s, which is costly to compute.

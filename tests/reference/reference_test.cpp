@@ -49,9 +49,9 @@ TEST(Reference, IsReciprocal) {
   for (const auto& [a, b, azimuth] :
        {std::tuple(10.0, 55.0, 40.0), std::tuple(30.0, 70.0, 180.0)}) {
     // Looking down along the direction whose zenith angle is the other's.
-    const auto reflectance = [&](double view, double sun) {
+    const auto reflectance = [&, phi = azimuth + 180](double view, double sun) {
       // `azimuth` lies between the sun and the place that the light leaves to.
-      return truth(rayQuery(60e3, 180 - view, sun, azimuth + 180), samplesOf(131072));
+      return truth(rayQuery(60e3, 180 - view, sun, phi), samplesOf(131072));
     };
     const ReferenceAnswer one = reflectance(a, b), other = reflectance(b, a);
     for (uint32_t c = 0; c < kSpectrumSize; ++c) {
