@@ -100,6 +100,9 @@ class Queries:
         if h < 60e3:
             self.ray("down", sun, h, 180 - off_nadir, azimuth)
         else:
+            # Small planets fill less of the view.
+            rim = degrees(math.asin(self.rg / (self.rg + self.space(h))))
+            off_nadir = round(min(off_nadir, 0.9 * rim), 3)
             self.from_space("down", sun, h, off_nadir, azimuth, self.rg,
                             f"{self.space(h):g}m-{off_nadir:g}deg")
 
