@@ -7,6 +7,8 @@ namespace {
 
 using physics_f64::Spectrum;
 
+/// Sums below it have no reciprocal that can be trusted; what they stand for is nothing.
+constexpr double kNothing = 1e-250;
 constexpr double kGuided = 0.88, kUnguided = 0.117, kAnywhere = 0.003;
 
 double sumOf(const Spectrum& s) { return s.x + s.y + s.z; }
@@ -53,16 +55,17 @@ DistanceSampling::DistanceSampling(const Medium& medium, const LightGuide& guide
     groundLight = sumOf(counts * n.transmittance * medium.groundAlbedo * incident);
   }
   const bool reflects = ground && sumOf(medium.groundAlbedo) > 0.0;
-  if (unguidedSum > 0.0) {
+  if (unguidedSum > kNothing) {
     const double all = guidedSum + groundLight;
-    if (reflects) groundProbability_ = std::clamp(all > 0.0 ? groundLight / all : 0.5, 0.02, 0.98);
+    if (reflects)
+      groundProbability_ = std::clamp(all > kNothing ? groundLight / all : 0.5, 0.02, 0.98);
   } else {
     groundProbability_ = reflects ? 1.0 : 0.0;
   }
-  possible_ = unguidedSum > 0.0 || reflects;
-  if (!(unguidedSum > 0.0)) return;
-  const double guided = guidedSum > 0.0 ? kGuided / guidedSum : 0.0;
-  const double other = (guidedSum > 0.0 ? kUnguided : kGuided + kUnguided) / unguidedSum;
+  possible_ = unguidedSum > kNothing || reflects;
+  if (!(unguidedSum > kNothing)) return;
+  const double guided = guidedSum > kNothing ? kGuided / guidedSum : 0.0;
+  const double other = (guidedSum > kNothing ? kUnguided : kGuided + kUnguided) / unguidedSum;
   for (int i = 0; i < count; ++i) {
     const auto k = static_cast<size_t>(i);
     weights_[k] = guided * weights_[k] + other * unguided[k] + kAnywhere / stretch.length;

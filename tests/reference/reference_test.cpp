@@ -222,6 +222,39 @@ TEST(Reference, AirlessAndEmptyCases) {
   }
 }
 
+// Whatever a valid atmosphere is, an answer is finite, not negative and no brighter than the light
+// that comes in allows for.
+TEST(Reference, ExtremeAtmospheresStayFinite) {
+  Parameters tiny = preset("earth-fig6"), thin = tiny, tall = tiny, thick = tiny, peaked = tiny,
+             back = tiny;
+  tiny.bottomRadius_m = 10e3;
+  tiny.topRadius_m = 70e3;
+  thin.mie.scaleHeight_m = 100.0;
+  tall.rayleigh.scaleHeight_m = 50e3;
+  for (uint32_t c = 0; c < kSpectrumSize; ++c) {
+    thick.mie.scattering_per_m[c] = thick.mie.extinction_per_m[c] = 50.0 / 1200.0;
+  }
+  thick.bottomRadius_m = 1e8;
+  thick.topRadius_m = 1e8 + 60e3;
+  peaked.mie.asymmetry = 0.99;
+  back.mie.asymmetry = -0.9;
+  for (const Parameters& p : {tiny, thin, tall, thick, peaked, back}) {
+    const Truth truth(p);
+    for (const ProbeQuery& query :
+         {rayQuery(0, 90, 90, 0), rayQuery(2, 89.95, 60, 60), rayQuery(1000, 180, 95, 0),
+          rayQuery(2, 30, 30, 0), rayQuery(30e3, 100, 100, 180), irradianceQuery(0, 80)}) {
+      const ReferenceAnswer a = truth(query, samplesOf(2048));
+      for (const Spectrum* s : {&a.value.skyRadiance, &a.value.groundRadiance, &a.value.sky}) {
+        for (double value : s->value) {
+          EXPECT_TRUE(std::isfinite(value) && value >= 0.0) << p.bottomRadius_m;
+        }
+      }
+      for (double value : a.value.sky.value) EXPECT_LT(value, 1.1);
+      for (double value : a.standardError.skyRadiance.value) EXPECT_TRUE(std::isfinite(value));
+    }
+  }
+}
+
 TEST(Reference, BandsFollowTheSunWhereTheRayLooks) {
   const Parameters p = preset("earth");
   EXPECT_NEAR(bandSunElevation(p, rayQuery(2, 80, 95, 0)), -5 * kDegree, 1e-12);

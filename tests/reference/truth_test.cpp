@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <numbers>
 #include <set>
@@ -40,23 +41,30 @@ TEST_P(TruthData, CoversEachBand) {
 }
 
 TEST_P(TruthData, ErrorsAreSmall) {
-  // The presets that were sampled until the target, and the others.
+  // The presets that were sampled until the target, and those with a fixed number of paths, whose
+  // goals are coarser too.
   const bool fine = set_.name == "earth" || set_.name == "earth-fig6";
+  std::printf("| %s |", set_.name.c_str());
   std::map<Band, std::vector<double>> errors;
   for (const TruthQuery& q : set_.queries) {
     const AnswerError error = truthError(q);
     errors[q.band].push_back(std::max(error.total, error.skyIrradiance));
     EXPECT_LT(error.transmittance, 1e-8);
   }
+  // What tracing stops at, docs/reference.md.
   const std::map<Band, double> allowed = {{Band::Day, 0.001},
                                           {Band::Low, 0.001},
                                           {Band::Civil, 0.003},
                                           {Band::Nautical, 0.005},
                                           {Band::Astronomical, 0.01}};
   for (const auto& [band, limit] : allowed) {
-    EXPECT_LT(percentile(errors[band], 50), (fine ? 1.0 : 3.0) * limit) << bandName(band);
-    EXPECT_LT(percentile(errors[band], 95), (fine ? 1.2 : 10.0) * limit) << bandName(band);
+    const double median = percentile(errors[band], 50), p95 = percentile(errors[band], 95);
+    EXPECT_LT(median, (fine ? 1.0 : 15.0) * limit) << bandName(band);
+    EXPECT_LT(p95, (fine ? 2.0 : 30.0) * limit) << bandName(band);
+    std::printf(" %.2f / %.2f / %.2f |", 100 * median, 100 * p95,
+                100 * percentile(errors[band], 100));
   }
+  std::printf("\n");
 }
 
 // One query of each kind, again, with other random numbers.
