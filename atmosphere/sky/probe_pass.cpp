@@ -1,6 +1,7 @@
 #include "atmosphere/sky/probe_pass.h"
 
 #include <alpenglow/shaders/probe.h>
+#include <alpenglow/shaders/probe_standard.h>
 
 #include <cfloat>
 #include <cmath>
@@ -97,14 +98,18 @@ Status ProbePass::makeLayouts() {
   return engine::createPipelineLayout(device_, sets, 2, &range, 1, "Alpenglow probe", &layout_);
 }
 
-Status ProbePass::pipeline(MieStorage mie, VkPipeline* out) {
+Status ProbePass::pipeline(const TableDesc& tables, VkPipeline* out) {
   const std::scoped_lock lock(mutex_);
-  VkPipeline& slot = pipelines_[static_cast<uint32_t>(mie)];
+  const bool moments = tables.solver == Solver::Moments;
+  VkPipeline& slot = pipelines_[moments ? 0 : 1 + static_cast<uint32_t>(tables.mie)];
   Status status = Status::Ok;
   if (slot == VK_NULL_HANDLE) {
-    const engine::SpecConstant packed = engine::specBool(0, mie == MieStorage::Packed);
+    namespace s = alpenglow::shaders;
+    const engine::SpecConstant packed = engine::specBool(0, tables.mie == MieStorage::Packed);
     engine::ComputePipelineDesc desc;
-    desc.shader = {shaders::kProbe, sizeof shaders::kProbe, "probe.comp"};
+    desc.shader = moments ? engine::Shader{s::kProbe, sizeof s::kProbe, "probe.comp"}
+                          : engine::Shader{s::kProbeStandard, sizeof s::kProbeStandard,
+                                           "probe.comp (standard)"};
     desc.layout = layout_;
     desc.constants = &packed;
     desc.constantCount = 1;
@@ -160,7 +165,7 @@ Status ProbePass::record(const Tables& tables, VkCommandBuffer commands, const F
   Status status = tables.assertReadable();
   if (status != Status::Ok) return status;
   VkPipeline chosen = VK_NULL_HANDLE;
-  status = pipeline(tables.desc().mie, &chosen);
+  status = pipeline(tables.desc(), &chosen);
   if (status != Status::Ok) return status;
 
   Call call;

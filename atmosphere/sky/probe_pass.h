@@ -33,7 +33,7 @@ class ProbePass {
   explicit ProbePass(bake::Resources& resources)
       : resources_(resources), device_(resources.device()) {}
   Status makeLayouts();
-  Status pipeline(MieStorage mie, VkPipeline* out);
+  Status pipeline(const TableDesc& desc, VkPipeline* out);
 
   /// What one call needs until its frame completes.
   struct Call {
@@ -50,7 +50,7 @@ class ProbePass {
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   std::mutex mutex_;
-  VkPipeline pipelines_[2] = {};  ///< By MieStorage; made when first used.
+  VkPipeline pipelines_[3] = {};  ///< Of moments, of full and packed Mie; made when first used.
 };
 
 }  // namespace alpenglow::sky

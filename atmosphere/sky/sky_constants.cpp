@@ -98,6 +98,15 @@ double cameraAltitude(const Parameters& parameters, const Camera& camera) {
   return std::max(cameraRadius(camera) - parameters.bottomRadius_m, 0.0);
 }
 
+SliceAngles sliceAngles(const Parameters& parameters, double altitude) {
+  const double rg = parameters.bottomRadius_m, r = rg + altitude;
+  const double rt = parameters.topRadius_m;
+  SliceAngles angles;
+  angles.horizon = std::atan2(rg, std::sqrt(altitude * (2.0 * rg + altitude)));
+  angles.span = (r > rt ? std::asin(rt / r) : kPi) - angles.horizon;
+  return angles;
+}
+
 Status checkDraw(const engine::Device& device, const ViewDesc& desc, const SkyDraw& draw) {
   const Camera& c = draw.camera;
   const double r2 = dot(c.position_m, c.position_m);
@@ -169,8 +178,18 @@ SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc,
   store(k.downMapTexel, c.up, -tangent, texel);
   store(k.sunDiscChord, draw.sun.direction, 1.0, disc.chord);
   store(k.irradianceDisc, draw.sun.irradiance.value, scale, disc.radiance);
-  k.circleScale[0] = static_cast<float>(v.width / v.least);
-  k.circleScale[1] = static_cast<float>(v.height / v.least);
+  const SliceAngles slice = sliceAngles(parameters, cameraAltitude(parameters, c));
+  k.circleSlice[0] = static_cast<float>(v.width / v.least);
+  k.circleSlice[1] = static_cast<float>(v.height / v.least);
+  k.circleSlice[2] = static_cast<float>(slice.horizon);
+  k.circleSlice[3] = static_cast<float>(slice.span);
+  // Towards a sun in the zenith no azimuth is the sun's, and any will do.
+  const double* sun = draw.sun.direction;
+  const double r = cameraRadius(c), muS = dot(c.position_m, sun) / r;
+  double across[3];
+  for (int i = 0; i < 3; ++i) across[i] = sun[i] - muS * c.position_m[i] / r;
+  const double sine = std::sqrt(dot(across, across));
+  store(k.sunAzimuth, across, sine > 1e-12 ? 1.0 / sine : 0.0, 0.0);
   return k;
 }
 

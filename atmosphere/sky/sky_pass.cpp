@@ -3,7 +3,11 @@
 #include <alpenglow/shaders/sky_fragment.h>
 #include <alpenglow/shaders/sky_fragment_map.h>
 #include <alpenglow/shaders/sky_fragment_map_slice.h>
+#include <alpenglow/shaders/sky_fragment_map_slice_standard.h>
+#include <alpenglow/shaders/sky_fragment_map_standard.h>
 #include <alpenglow/shaders/sky_fragment_slice.h>
+#include <alpenglow/shaders/sky_fragment_slice_standard.h>
+#include <alpenglow/shaders/sky_fragment_standard.h>
 #include <alpenglow/shaders/sky_vertex.h>
 
 #include <bit>
@@ -47,11 +51,12 @@ Status checkViewDesc(const engine::Device& device, const ViewDesc& desc) {
                        desc.viewMask);
   }
   if (desc.projection > Projection::Fisheye || desc.depth > DepthConvention::Reversed ||
-      desc.mie > MieStorage::Packed) {
+      desc.mie > MieStorage::Packed || desc.solver > Solver::Standard) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "ViewDesc has projection %u, depth %u and mie %u, but each must be 0 or 1.",
+                       "ViewDesc has projection %u, depth %u, mie %u and solver %u, but each must "
+                       "be 0 or 1.",
                        static_cast<uint32_t>(desc.projection), static_cast<uint32_t>(desc.depth),
-                       static_cast<uint32_t>(desc.mie));
+                       static_cast<uint32_t>(desc.mie), static_cast<uint32_t>(desc.solver));
   }
   if (desc.groundAlbedo.view != VK_NULL_HANDLE &&
       (desc.groundAlbedo.sampler == VK_NULL_HANDLE || desc.groundAlbedo.height == 0)) {
@@ -109,16 +114,18 @@ void View::destroy(View* view, const FrameInfo& frame) {
 
 Status View::makeSlice() {
   if (desc_.skySlice == nullptr) return Status::Ok;
-  if (desc_.skySlice->desc().mie != desc_.mie || &desc_.skySlice->resources() != &resources_) {
+  const TableDesc tables = desc_.skySlice->desc();
+  if (tables.mie != desc_.mie || tables.solver != desc_.solver ||
+      &desc_.skySlice->resources() != &resources_) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "ViewDesc::skySlice has tables %s, but needs tables of the view's context "
-                        "that store single Mie scattering as ViewDesc::mie says.",
+                        "with the solver and the MieStorage that ViewDesc names.",
                         &desc_.skySlice->resources() != &resources_ ? "of another context"
+                        : tables.solver != desc_.solver             ? "of another solver"
                                                                     : "with another MieStorage");
   }
-  const TableSizes sizes = desc_.skySlice->desc().sizes;
   desc_.skySlice = nullptr;  // Only their shape counts: they may be destroyed before the view.
-  return sky::SkySlice::create(resources_, sizes, desc_.mie, &slice_);
+  return sky::SkySlice::create(resources_, tables, &slice_);
 }
 
 // Set 1 of the fragment shader: the albedo map at binding 0, the slice at 1 and 2; what there is of
@@ -167,14 +174,23 @@ Status View::makeSet(const VkDescriptorSetLayoutBinding* bindings, uint32_t coun
 
 namespace {
 
-engine::Shader fragmentShader(bool map, bool slice) {
-  namespace s = alpenglow::shaders;
-  if (map && slice)
-    return {s::kSkyFragmentMapSlice, sizeof s::kSkyFragmentMapSlice, "sky.frag map slice"};
-  if (map) return {s::kSkyFragmentMap, sizeof s::kSkyFragmentMap, "sky.frag map"};
-  if (slice) return {s::kSkyFragmentSlice, sizeof s::kSkyFragmentSlice, "sky.frag slice"};
-  return {s::kSkyFragment, sizeof s::kSkyFragment, "sky.frag"};
+#define ALPENGLOW_SHADER(name) \
+  engine::Shader { shaders::name, sizeof shaders::name, #name }
+
+engine::Shader fragmentShader(Solver solver, bool map, bool slice) {
+  if (solver == Solver::Standard) {
+    if (map && slice) return ALPENGLOW_SHADER(kSkyFragmentMapSliceStandard);
+    if (map) return ALPENGLOW_SHADER(kSkyFragmentMapStandard);
+    if (slice) return ALPENGLOW_SHADER(kSkyFragmentSliceStandard);
+    return ALPENGLOW_SHADER(kSkyFragmentStandard);
+  }
+  if (map && slice) return ALPENGLOW_SHADER(kSkyFragmentMapSlice);
+  if (map) return ALPENGLOW_SHADER(kSkyFragmentMap);
+  if (slice) return ALPENGLOW_SHADER(kSkyFragmentSlice);
+  return ALPENGLOW_SHADER(kSkyFragment);
 }
+
+#undef ALPENGLOW_SHADER
 
 }  // namespace
 
@@ -183,7 +199,7 @@ Status View::makePipelines(bool slice, VkPipeline* pipelines) {
   const bool reversed = desc_.depth == DepthConvention::Reversed;
   engine::GraphicsPipelineDesc desc;
   desc.vertex = {s::kSkyVertex, sizeof s::kSkyVertex, "sky.vert"};
-  desc.fragment = fragmentShader(desc_.groundAlbedo.view != VK_NULL_HANDLE, slice);
+  desc.fragment = fragmentShader(desc_.solver, desc_.groundAlbedo.view != VK_NULL_HANDLE, slice);
   desc.layout = layout_;
   desc.colorFormat = desc_.colorFormat;
   desc.depthFormat = desc_.depthFormat;
@@ -214,6 +230,12 @@ Status View::checkRecord(const Tables& tables, const SkyDraw& draw, const char* 
                         "%s got tables of another context, but a view draws with those of its own.",
                         call);
   }
+  if (tables.desc().solver != desc_.solver) {
+    return device_.fail(Status::InvalidArgument, VK_SUCCESS,
+                        "The tables are of Solver::%s, but ViewDesc::solver says %s.",
+                        tables.desc().solver == Solver::Moments ? "Moments" : "Standard",
+                        desc_.solver == Solver::Moments ? "Moments" : "Standard");
+  }
   if (tables.desc().mie != desc_.mie) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "The tables store single Mie scattering %s, but ViewDesc::mie says %s.",
@@ -232,13 +254,14 @@ Status View::recordSlice(VkCommandBuffer commands, const Tables& tables, const S
                         "ViewDesc::skySlice.");
   }
   if (!slice_->fits(tables)) {
-    const TableSizes& sizes = tables.desc().sizes;
+    const TableSizes& sizes = tables.desc().sizes;  // the slices of moments are all alike
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "recordSkySlice got tables with %u mu and %u nu, but the view's slice was "
                         "made for another shape.",
                         sizes.scatteringMu, sizes.scatteringNu);
   }
-  return sky::SkySlice::inside(tables, draw) ? slice_->record(commands, tables, draw) : Status::Ok;
+  return sky::SkySlice::possible(tables, draw) ? slice_->record(commands, tables, draw)
+                                               : Status::Ok;
 }
 
 Status View::recordSky(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw) {

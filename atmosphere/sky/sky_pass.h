@@ -17,9 +17,10 @@ struct SkyConstants {
   float downMapTexel[4];
   float sunDiscChord[4];
   float irradianceDisc[4];
-  float circleScale[4];
+  float circleSlice[4];
+  float sunAzimuth[4];
 };
-static_assert(sizeof(SkyConstants) == 112, "Vulkan guarantees 128 bytes");
+static_assert(sizeof(SkyConstants) == 128, "Vulkan guarantees 128 bytes");
 
 /// What a frame's camera may see: chooses the pipeline.
 struct Visible {

@@ -2,6 +2,8 @@
 
 #include <alpenglow/shaders/sky_slice_rgba16f.h>
 #include <alpenglow/shaders/sky_slice_rgba32f.h>
+#include <alpenglow/shaders/sky_slice_standard_rgba16f.h>
+#include <alpenglow/shaders/sky_slice_standard_rgba32f.h>
 
 #include <algorithm>
 #include <new>
@@ -9,9 +11,27 @@
 namespace alpenglow::sky {
 namespace {
 
+/// Push constants of sky_slice.comp; the standard solver's reads the first two.
 struct SliceConstants {
-  float altitude, muS;
+  float altitude, muS, horizon, span;
 };
+
+/// kSliceAzimuths, and kSliceGroundRows + kSliceSkyRows of shaders/glsl/physics/slice.glsl.
+constexpr VkExtent3D kMomentSlice = {physics_f32::kSliceAzimuths,
+                                     physics_f32::kSliceGroundRows + physics_f32::kSliceSkyRows, 1};
+
+engine::Shader sliceShader(Solver solver, TableFormat format) {
+  namespace s = alpenglow::shaders;
+  const bool wide = format == TableFormat::Float;
+  if (solver == Solver::Moments) {
+    return wide ? engine::Shader{s::kSkySliceFloat, sizeof s::kSkySliceFloat, "sky_slice (rgba32f)"}
+                : engine::Shader{s::kSkySliceHalf, sizeof s::kSkySliceHalf, "sky_slice (rgba16f)"};
+  }
+  return wide ? engine::Shader{s::kSkySliceStandardFloat, sizeof s::kSkySliceStandardFloat,
+                               "sky_slice_standard (rgba32f)"}
+              : engine::Shader{s::kSkySliceStandardHalf, sizeof s::kSkySliceStandardHalf,
+                               "sky_slice_standard (rgba16f)"};
+}
 
 constexpr VkDescriptorSetLayoutBinding kBindings[2] = {
     {0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
@@ -19,10 +39,15 @@ constexpr VkDescriptorSetLayoutBinding kBindings[2] = {
 
 }  // namespace
 
-Status SkySlice::create(bake::Resources& resources, const TableSizes& sizes, MieStorage mie,
-                        SkySlice** out) {
+VkExtent3D SkySlice::extentFor(const TableDesc& desc) {
+  return desc.solver == Solver::Moments
+             ? kMomentSlice
+             : VkExtent3D{desc.sizes.scatteringNu, desc.sizes.scatteringMu, 1};
+}
+
+Status SkySlice::create(bake::Resources& resources, const TableDesc& tables, SkySlice** out) {
   *out = nullptr;
-  auto* slice = new (std::nothrow) SkySlice(resources, sizes, mie);
+  auto* slice = new (std::nothrow) SkySlice(resources, tables);
   if (slice == nullptr) {
     return resources.device().fail(Status::OutOfHostMemory, VK_SUCCESS,
                                    "A sky slice found no host memory.");
@@ -59,7 +84,7 @@ Status SkySlice::make() {
   for (uint32_t i = 0; i < count_; ++i) {
     engine::ImageDesc desc;
     desc.format = bake::vulkanFormat(format);
-    desc.extent = {sizes_.scatteringNu, sizes_.scatteringMu, 1};
+    desc.extent = extent_;
     desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     desc.name = i == 0 ? "Alpenglow sky slice" : "Alpenglow sky slice Mie";
     const Status made = engine::createImage(device_, desc, images[i]);
@@ -89,20 +114,17 @@ Status SkySlice::makePipeline(TableFormat format) {
   const Status status =
       engine::createPipelineLayout(device_, sets, 2, &range, 1, "Alpenglow sky slice", &layout_);
   if (status != Status::Ok) return status;
-  namespace s = alpenglow::shaders;
   const engine::SpecConstant packed = engine::specBool(0, mie_ == MieStorage::Packed);
   engine::ComputePipelineDesc desc;
-  desc.shader =
-      format == TableFormat::Float
-          ? engine::Shader{s::kSkySliceFloat, sizeof s::kSkySliceFloat, "sky_slice.comp (rgba32f)"}
-          : engine::Shader{s::kSkySliceHalf, sizeof s::kSkySliceHalf, "sky_slice.comp (rgba16f)"};
+  desc.shader = sliceShader(solver_, format);
   desc.layout = layout_;
   desc.constants = &packed;
-  desc.constantCount = 1;
+  desc.constantCount = solver_ == Solver::Standard ? 1 : 0;
   return engine::createComputePipeline(device_, desc, &pipeline_);
 }
 
-bool SkySlice::inside(const Tables& tables, const SkyDraw& draw) {
+bool SkySlice::possible(const Tables& tables, const SkyDraw& draw) {
+  if (tables.desc().solver == Solver::Moments) return true;
   const Parameters& p = tables.parameters();
   return cameraAltitude(p, draw.camera) <= p.topRadius_m - p.bottomRadius_m;
 }
@@ -118,7 +140,10 @@ Status SkySlice::record(VkCommandBuffer commands, const Tables& tables, const Sk
   const double r = cameraRadius(camera);
   double muS = 0.0;
   for (int i = 0; i < 3; ++i) muS += camera.position_m[i] / r * draw.sun.direction[i];
-  const SliceConstants constants = {static_cast<float>(altitude), static_cast<float>(muS)};
+  const SliceAngles angles = sliceAngles(tables.parameters(), altitude);
+  const SliceConstants constants = {static_cast<float>(altitude), static_cast<float>(muS),
+                                    static_cast<float>(angles.horizon),
+                                    static_cast<float>(angles.span)};
   const engine::Dispatch& vk = device_.vk();
   const VkDescriptorSet sets[] = {tables.descriptorSet(), set_};
   vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
@@ -126,7 +151,7 @@ Status SkySlice::record(VkCommandBuffer commands, const Tables& tables, const Sk
                            nullptr);
   vk.CmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
                       &constants);
-  vk.CmdDispatch(commands, (sizes_.scatteringNu + 7) / 8, (sizes_.scatteringMu + 7) / 8, 1);
+  vk.CmdDispatch(commands, (extent_.width + 7) / 8, (extent_.height + 7) / 8, 1);
   ++device_.counters().dispatches;
 
   for (uint32_t i = 0; i < count_; ++i) barriers.image(images_[i], engine::kFragmentSampled);

@@ -1,4 +1,5 @@
-// The slice of S that the camera of a frame looks into, and the dispatch that fills it.
+// What the camera of a frame looks into, for all its rays, and the dispatch that fills it: light
+// along rays (moments), or S at its altitude (standard).
 #pragma once
 
 #include <alpenglow/view.h>
@@ -13,44 +14,54 @@ double cameraRadius(const Camera& camera);
 /// below the ground.
 double cameraAltitude(const Parameters& parameters, const Camera& camera);
 
+/// SliceView of shaders/glsl/physics/slice.glsl, radians.
+struct SliceAngles {
+  double horizon = 0.0, span = 0.0;
+};
+SliceAngles sliceAngles(const Parameters& parameters, double altitude);
+
 /// Owned by a view; externally synchronised.
 class SkySlice {
  public:
-  /// For tables of these sizes and storage.
-  static Status create(bake::Resources& resources, const TableSizes& sizes, MieStorage mie,
-                       SkySlice** out);
+  /// For tables of this description.
+  static Status create(bake::Resources& resources, const TableDesc& desc, SkySlice** out);
   static void destroy(SkySlice* slice, const FrameInfo& frame);
 
   bool fits(const Tables& tables) const {
-    return tables.desc().sizes.scatteringMu == sizes_.scatteringMu &&
-           tables.desc().sizes.scatteringNu == sizes_.scatteringNu;
+    const VkExtent3D other = extentFor(tables.desc());
+    return other.width == extent_.width && other.height == extent_.height;
   }
   /// Both have been checked. Fills the slice and leaves it readable by fragment shaders.
   Status record(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw);
   /// Whether the slice, as recorded last, is what this draw looks into.
   bool serves(const Tables& tables, const SkyDraw& draw) const;
-  /// The camera of the draw is inside the atmosphere of the tables.
-  static bool inside(const Tables& tables, const SkyDraw& draw);
+  /// Whether there is a slice for the draw's camera: with moments always, else inside the
+  /// atmosphere.
+  static bool possible(const Tables& tables, const SkyDraw& draw);
 
-  /// C_* and, not packed, C_M; when packed the first again, so that each binding has an image.
+  /// What needs no phase function, or C_*; single Mie scattering without its own, or C_M; when
+  /// packed the first again, so that each binding has an image.
   const engine::Image& image() const { return images_[0]; }
   const engine::Image& mieImage() const { return images_[count_ - 1]; }
   Status assertReadable() const;
 
  private:
-  SkySlice(bake::Resources& resources, const TableSizes& sizes, MieStorage mie)
+  SkySlice(bake::Resources& resources, const TableDesc& desc)
       : resources_(resources),
         device_(resources.device()),
-        sizes_(sizes),
-        mie_(mie),
-        count_(mie == MieStorage::Full ? 2 : 1) {}
+        solver_(desc.solver),
+        mie_(desc.mie),
+        extent_(extentFor(desc)),
+        count_(mie_ == MieStorage::Full ? 2 : 1) {}
+  static VkExtent3D extentFor(const TableDesc& desc);
   Status make();
   Status makePipeline(TableFormat format);
 
   bake::Resources& resources_;
   engine::Device& device_;
-  TableSizes sizes_;
+  Solver solver_;
   MieStorage mie_;
+  VkExtent3D extent_;
   uint32_t count_;
   engine::Image images_[2];
   engine::MemoryBlock block_;

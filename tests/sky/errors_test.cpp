@@ -109,6 +109,7 @@ TEST_F(SkyTest, TablesMustFitTheView) {
   ASSERT_EQ(createContext(otherDesc, &other), Status::Ok);
   View* foreign = nullptr;
   ViewDesc viewDesc;
+  viewDesc.solver = Solver::Standard;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   ASSERT_EQ(createView(other, viewDesc, &foreign), Status::Ok);
   tables();
@@ -165,6 +166,7 @@ TEST_F(SkyTest, BadViewsAreRefusedWithTheValue) {
   resourceReport(context(), &start);
   for (const BadView& bad : cases) {
     ViewDesc desc;
+    desc.solver = Solver::Standard;
     desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     bad.spoil(desc);
     message().clear();

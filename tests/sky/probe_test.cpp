@@ -114,6 +114,7 @@ TEST_F(SkyTest, PixelsAreWhatProbesAnswer) {
 // Packed tables, and another planet.
 TEST_F(SkyTest, PixelsAreWhatProbesAnswerForOtherTables) {
   ViewDesc packed;
+  packed.solver = Solver::Standard;
   packed.mie = MieStorage::Packed;
   View* const packedView = makeView(packed);
   for (const char* name : {"earth", "mars"}) {

@@ -171,6 +171,7 @@ View* SkyTest::view(Projection projection) {
   View*& slot = shared().views[projection];
   if (slot == nullptr) {
     ViewDesc desc;
+    desc.solver = Solver::Standard;
     desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     desc.projection = projection;
     EXPECT_EQ(createView(context(), desc, &slot), Status::Ok) << message();

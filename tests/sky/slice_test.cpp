@@ -23,6 +23,7 @@ class SliceTest : public SkyTest {
 
   View* sliceView(MieStorage mie = MieStorage::Full) {
     ViewDesc desc;
+    desc.solver = Solver::Standard;
     desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     desc.mie = mie;
     desc.skySlice = tables("earth", mie);
@@ -55,6 +56,7 @@ TEST_F(SliceTest, GivesThePictureOfTheTables) {
   for (MieStorage mie : {MieStorage::Full, MieStorage::Packed}) {
     Tables* with = tables("earth", mie);
     ViewDesc plain;
+    plain.solver = Solver::Standard;
     plain.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     plain.mie = mie;
     View* direct = makeView(plain);
@@ -115,6 +117,7 @@ TEST_F(SliceTest, RefusesViewsAndTablesThatDoNotFit) {
   });
   destroyTables(odd, device().frame());
   ViewDesc desc;
+  desc.solver = Solver::Standard;
   desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   desc.mie = MieStorage::Packed;
   desc.skySlice = tables();

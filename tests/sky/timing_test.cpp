@@ -101,6 +101,7 @@ TEST_F(TimingTest, ASliceMakesAPixelOfSkyCheaper) {
     ASSERT_EQ(createTables(context(), earth, desc, &tables), Status::Ok) << message();
     bakeAll(device(), tables);
     ViewDesc viewDesc;
+    viewDesc.solver = Solver::Standard;
     viewDesc.colorFormat = kFormat;
     viewDesc.mie = mie;
     viewDesc.skySlice = tables;

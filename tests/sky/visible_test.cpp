@@ -53,6 +53,7 @@ TEST(VisibleTest, IsConservativeAndUseful) {
       discUnseen = 0;
   for (int i = 0; i < 4000; ++i) {
     ViewDesc desc;
+    desc.solver = Solver::Standard;
     desc.projection = i % 2 == 0 ? Projection::Perspective : Projection::Fisheye;
     const double most = i % 2 == 0 ? radians(175.0) : 2.0 * kPi;
     const double altitude = uniform(random) < 0.2 ? 0.0 : std::pow(10.0, 8.0 * uniform(random));
@@ -95,6 +96,7 @@ TEST_F(SkyTest, VariantsDrawWhatTheFullOneDraws) {
   sunDirection(0.0, 0.0, radians(15.0), 0.0, sun);
   for (const Projection projection : {Projection::Perspective, Projection::Fisheye}) {
     ViewDesc desc;
+    desc.solver = Solver::Standard;
     desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     desc.projection = projection;
     vulkan().forcedConstants = {{2, VK_TRUE}, {3, VK_TRUE}};

@@ -1,7 +1,7 @@
 // What a host's own shaders include to light a scene with Alpenglow's tables. Compile with the folder
-// above on the include path, bind tableSet() at set ALPENGLOW_SET (0 unless defined before), and set
-// ALPENGLOW_MIE_PACKED to true for tables with MieStorage::Packed (a bool, may be a specialization
-// constant; false unless defined before).
+// above on the include path and bind tableSet() at set ALPENGLOW_SET (0 unless defined before). For tables
+// of Solver::Standard define ALPENGLOW_SOLVER_STANDARD, and ALPENGLOW_MIE_PACKED as true for those with
+// MieStorage::Packed (a bool, may be a specialization constant; false unless defined before).
 //
 // Every answer is per unit solar irradiance, in the channels of the tables: multiply it with the
 // sun's irradiance. Distances are metres, directions unit vectors, `up` the observer's vertical.
@@ -15,28 +15,15 @@
 #define ALPENGLOW_MIE_PACKED false
 #endif
 
+#ifdef ALPENGLOW_SOLVER_STANDARD
 #define ALPENGLOW_TABLE_READS
 #define ALPENGLOW_FINAL_READS
 #include "physics/physics.glsl"
-
-layout(set = ALPENGLOW_SET, binding = 1) uniform sampler2D alpenglowTransmittanceTable;
-layout(set = ALPENGLOW_SET, binding = 2) uniform sampler2D alpenglowIrradiance;
-layout(set = ALPENGLOW_SET, binding = 3) uniform sampler3D alpenglowScattering;
-layout(set = ALPENGLOW_SET, binding = 4) uniform sampler3D alpenglowSingleMie;
-
-Spectrum readTransmittance(vec2 uv) {
-  return textureLod(alpenglowTransmittanceTable, uv, 0.0).rgb;
-}
-Spectrum readIrradiance(vec2 uv) { return textureLod(alpenglowIrradiance, uv, 0.0).rgb; }
-vec4 readScattering(vec3 uvw) { return textureLod(alpenglowScattering, uvw, 0.0); }
-Spectrum readSingleMie(vec3 uvw) { return textureLod(alpenglowSingleMie, uvw, 0.0).rgb; }
-
-#include "physics/lookup.glsl"
-
-layout(set = ALPENGLOW_SET, binding = 0, std140) uniform AlpenglowAtmosphere {
-  Medium alpenglowMedium;
-  TableShape alpenglowShape;
-};
+#include "alpenglow/standard_tables.glsl"
+#else
+#include "physics/physics.glsl"
+#include "alpenglow/moment_tables.glsl"
+#endif
 
 // The part of a view ray that lies in the atmosphere, of an observer `altitude` metres above the
 // ground sphere (on the ground or in space). Compute the altitude in double on the CPU.
@@ -49,8 +36,7 @@ Ray alpenglowRay(vec3 up, float altitude, vec3 view, vec3 sun) {
 
 // Radiance scattered in the air along the whole ray, to the ground or to space. No sun disc.
 Spectrum alpenglowSkyRadiance(Ray ray) {
-  Spectrum s = scatteringOfRay(alpenglowMedium, alpenglowShape, ray.h, ray.mu, ray.muS, ray.nu,
-                               ray.hitsGround);
+  Spectrum s = alpenglowLightOfRay(ray);
   return ray.inAtmosphere ? s : SPECTRUM(0.0);
 }
 
@@ -70,21 +56,27 @@ Spectrum alpenglowTransmittance(Ray ray, float distance_) {
 Spectrum alpenglowRadianceToPoint(Ray ray, float distance_, out Spectrum transmittance) {
   transmittance = alpenglowTransmittance(ray, distance_);
   float inside = alpenglowInside(ray, distance_);
-  Spectrum s = scatteringOfSegment(alpenglowMedium, alpenglowShape, ray, inside, transmittance);
+  Spectrum s = alpenglowLightOfSegment(ray, inside, transmittance);
   return inside > 0.0 ? s : SPECTRUM(0.0);
 }
 
 // Transmittance from the observer to what the ray meets at its end: space, or the sun's disc.
 Spectrum alpenglowTransmittanceToSpace(Ray ray) {
-  Spectrum t = transmittanceToTop(alpenglowMedium, alpenglowShape, ray.h, ray.mu);
+  Spectrum t = alpenglowTransmittanceOfRay(ray);
   return ray.hitsGround ? SPECTRUM(0.0) : (ray.inAtmosphere ? t : SPECTRUM(1.0));
 }
 
 // Irradiance at an altitude inside the atmosphere where the sun's zenith cosine is muS: of the sun on
 // a surface facing it, and of the sky on a horizontal one.
 void alpenglowSunAndSkyIrradiance(float altitude, float muS, out Spectrum sun, out Spectrum sky) {
-  sun = transmittanceToSun(alpenglowMedium, alpenglowShape, altitude, muS);
-  sky = skyIrradiance(alpenglowMedium, alpenglowShape, altitude, muS);
+  sun = alpenglowSunlight(altitude, muS);
+  sky = alpenglowSkyIrradiance(altitude, muS);
+}
+
+// R[L], equation 10: light that a Lambertian ground at altitude 0 sends up; equation 14 with n = n-bar.
+Spectrum alpenglowGroundRadiance(Spectrum albedo, float muS) {
+  return albedo / ALPENGLOW_PI *
+         (alpenglowSunlight(0.0, muS) * max(muS, 0.0) + alpenglowSkyIrradiance(0.0, muS));
 }
 
 #endif  // ALPENGLOW_ATMOSPHERE

@@ -22,14 +22,17 @@ struct MomentShape {
   Real tail;               // 1: the orders that are not solved follow as a geometric series
 };
 
-// acos to float accuracy: the built-in one of GPUs and of lavapipe is off by up to 1e-4 rad.
+// asin of x in [0, 1/2] and acos to float accuracy: GPUs and lavapipe have them off by up to 1e-4 rad.
+ALPENGLOW_FN Real arcSineOfSmall(Real x) {
+  Real z = x * x;
+  return ((((REAL(4.2163199048e-2) * z + REAL(2.4181311049e-2)) * z + REAL(4.5470025998e-2)) * z +
+           REAL(7.4953002686e-2)) * z + REAL(1.6666752422e-1)) * z * x + x;
+}
+
 ALPENGLOW_FN Real arcCosine(Real x) {
   Real a = abs(x);
   bool wide = a > REAL(0.5);
-  Real z = wide ? REAL(0.5) * (REAL(1.0) - a) : a * a;
-  Real s = wide ? sqrt(z) : a;
-  Real p = ((((REAL(4.2163199048e-2) * z + REAL(2.4181311049e-2)) * z + REAL(4.5470025998e-2)) * z +
-             REAL(7.4953002686e-2)) * z + REAL(1.6666752422e-1)) * z * s + s;
+  Real p = arcSineOfSmall(wide ? sqrt(REAL(0.5) * (REAL(1.0) - a)) : a);
   Real positive = wide ? REAL(2.0) * p : REAL(0.5) * REAL(ALPENGLOW_PI) - p;
   return x < REAL(0.0) ? REAL(ALPENGLOW_PI) - positive : positive;
 }

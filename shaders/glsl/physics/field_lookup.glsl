@@ -32,14 +32,6 @@ ALPENGLOW_FN Spectrum fieldIrradiance(IN(Medium) m, IN(MomentShape) s, Real h, R
   return exp(readLayer(nodeCoordinate(m, s, h, muS), REAL(4.0)));
 }
 
-// R[L], equation 10: light that a Lambertian ground sends up where the sun is at mu_s.
-ALPENGLOW_FN Spectrum fieldGroundRadiance(IN(Medium) m, IN(MomentShape) s, Spectrum albedo,
-                                          Real muS) {
-  return albedo / REAL(ALPENGLOW_PI) *
-         (sunlight(m, s, REAL(0.0), muS) * max(muS, REAL(0.0)) +
-          fieldIrradiance(m, s, REAL(0.0), muS));
-}
-
 // J of equation 7 at a point, into direction v with cosine nu to the sun; `shape` is sourceShape(nu).
 // Rayleigh's phase function is a quadratic form, so its integral is one of the second moments.
 ALPENGLOW_FN Spectrum fieldSource(IN(Medium) m, IN(MomentShape) s, Real h, Real mu, Real muS, Real nu,

@@ -125,13 +125,5 @@ ALPENGLOW_FN Spectrum scatteringOfSegment(IN(Medium) m, IN(TableShape) shape, IN
   return d < ray.extent ? part : all;
 }
 
-// R[L], equation 10: light that a Lambertian ground sends up where the sun is at mu_s; equation 14
-// with n = n-bar.
-ALPENGLOW_FN Spectrum groundRadiance(IN(Medium) m, IN(TableShape) shape, Spectrum albedo, Real muS) {
-  Spectrum direct =
-      transmittanceToSun(m, shape, REAL(0.0), muS) * max(muS, REAL(0.0));
-  return albedo / REAL(ALPENGLOW_PI) * (direct + skyIrradiance(m, shape, REAL(0.0), muS));
-}
-
 #endif  // ALPENGLOW_FINAL_READS
 #endif  // ALPENGLOW_TABLE_READS

@@ -21,6 +21,8 @@
 
 #include "path.glsl"
 
+#include "slice.glsl"
+
 #include "tone_map.glsl"
 
 #endif

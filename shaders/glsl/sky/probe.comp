@@ -60,8 +60,7 @@ Answer rayAnswer(Query q) {
   ray.inAtmosphere = (q.flags & kEmpty) == 0u;
   Spectrum transmittance;
   Spectrum sky = alpenglowRadianceToPoint(ray, q.d, transmittance);
-  Spectrum ground = transmittance * groundRadiance(alpenglowMedium, alpenglowShape,
-                                                   alpenglowMedium.groundAlbedo, q.muSGround);
+  Spectrum ground = transmittance * alpenglowGroundRadiance(alpenglowMedium.groundAlbedo, q.muSGround);
   a.transmittanceOrDirect = vec4(transmittance, 0.0);
   a.sky = vec4(sky, 0.0);
   a.ground = vec4((q.flags & kEndsOnGround) != 0u ? ground : SPECTRUM(0.0), 0.0);

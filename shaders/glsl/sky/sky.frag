@@ -9,7 +9,8 @@ layout(constant_id = 2) const bool kGround = true;  // some pixels may see the g
 layout(constant_id = 3) const bool kSunDisc = true;
 
 #ifdef ALPENGLOW_SKY_SLICE
-// S at the camera's altitude under this frame's sun: sky_slice.comp. For cameras inside the atmosphere.
+// Light that arrives at this frame's camera, or of the standard solver S at its altitude, for cameras
+// inside the atmosphere: sky_slice.comp, sky_slice_standard.comp.
 #include "physics/types.glsl"
 #define ALPENGLOW_SLICE_READS
 layout(set = 1, binding = 1) uniform sampler2D sliceTable;
@@ -33,7 +34,8 @@ layout(push_constant) uniform SkyConstants {
   vec4 downMapTexel;      // scaled by tan(fov / 2), down the image; metres of a map texel
   vec4 sunDiscChord;      // towards the sun; chord to where the drawn disc's edge is at 1/2
   vec4 irradianceDisc;    // solar irradiance times radianceScale; the disc's radiance per unit of it
-  vec4 circleScale;       // xy: ndc to units of the fisheye's circle
+  vec4 circleSlice;       // xy: ndc to units of the fisheye's circle; zw: SliceView
+  vec4 sunAzimuth;        // horizontal unit vector towards the sun
 };
 
 layout(location = 0) in vec2 ndc;
@@ -41,7 +43,7 @@ layout(location = 0) out vec4 radiance;
 
 vec3 viewDirection(out bool visible) {
   if (kFisheye) {
-    vec2 p = ndc * circleScale.xy;
+    vec2 p = ndc * circleSlice.xy;
     float radius = length(p);
     float theta = radius * rightHalfAngle.w;
     visible = radius <= 1.00001;  // a pixel centre right on the circle is in it, whatever rounds
@@ -77,7 +79,7 @@ Spectrum groundTerm(Ray ray, vec3 view) {
   float muGround = -muAt(alpenglowMedium, ray.h, ray.mu, d, 0.0);
   float muSGround = muSAt(alpenglowMedium, ray.h, ray.muS, ray.nu, d, 0.0);
   Spectrum albedo = groundAlbedo(ray, view, muGround);
-  Spectrum light = groundRadiance(alpenglowMedium, alpenglowShape, albedo, muSGround) * exp(-depth);
+  Spectrum light = alpenglowGroundRadiance(albedo, muSGround) * exp(-depth);
   return ray.hitsGround ? light : SPECTRUM(0.0);
 }
 
@@ -89,14 +91,33 @@ Spectrum discTerm(Ray ray, vec3 view) {
   return alpenglowTransmittanceToSpace(ray) * (coverage * irradianceDisc.w);
 }
 
+#ifdef ALPENGLOW_SKY_SLICE
+Spectrum sliceTerm(Ray ray, vec3 view) {
+#ifdef ALPENGLOW_SOLVER_STANDARD
+  return scatteringOfRayInSlice(alpenglowMedium, alpenglowShape, ray.h, ray.mu, ray.nu,
+                                ray.hitsGround);
+#else
+  float mu = dot(view, upAltitude.xyz);
+  vec3 across = view - mu * upAltitude.xyz;
+  vec3 fromNadir = view + upAltitude.xyz;
+  float cosine = dot(across, sunAzimuth.xyz) * inversesqrt(max(dot(across, across), 1e-20));
+  SliceView slice = SliceView(circleSlice.z, circleSlice.w);
+  vec2 at = sliceCoordinate(slice, angleFromNadir(mu, 0.25 * dot(fromNadir, fromNadir)),
+                            sqrt(clamp(0.5 - 0.5 * cosine, 0.0, 1.0)), ray.hitsGround);
+  Spectrum light = readSlice(at).rgb +
+                   readSliceMie(at) * miePhase(alpenglowMedium.mieAsymmetry, ray.nu);
+  return ray.inAtmosphere ? light : SPECTRUM(0.0);
+#endif
+}
+#endif
+
 void main() {
   bool visible;
   vec3 view = viewDirection(visible);
   Ray ray = alpenglowRay(upAltitude.xyz, upAltitude.w, view, sunDiscChord.xyz);
   if (!kGround) ray.hitsGround = false;
 #ifdef ALPENGLOW_SKY_SLICE
-  Spectrum light = scatteringOfRayInSlice(alpenglowMedium, alpenglowShape, ray.h, ray.mu, ray.nu,
-                                          ray.hitsGround);
+  Spectrum light = sliceTerm(ray, view);
 #else
   Spectrum light = alpenglowSkyRadiance(ray);
 #endif

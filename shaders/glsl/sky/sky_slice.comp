@@ -1,12 +1,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The slice of S that one frame's camera looks into: its r and mu_s are the same for all pixels, so they
-// are interpolated here once, for each mu and nu of the table.
+// The sky slice of one frame (physics/slice.glsl): light that arrives at the camera along each ray, single
+// Mie scattering apart and without its phase function, which is too narrow for the slice's texels.
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(constant_id = 0) const bool kMiePacked = false;
 
-#define ALPENGLOW_MIE_PACKED kMiePacked
 #include "alpenglow/atmosphere.glsl"
 
 layout(set = 1, binding = 0, ALPENGLOW_STORAGE) uniform writeonly image2D slice;
@@ -15,15 +13,27 @@ layout(set = 1, binding = 1, ALPENGLOW_STORAGE) uniform writeonly image2D sliceM
 layout(push_constant) uniform Camera {
   float altitude;
   float muS;
+  float horizon, span;  // SliceView
 };
 
 void main() {
   ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
   if (any(greaterThanEqual(texel, imageSize(slice)))) return;
-  float uMuS = insetCoordinate(scatteringUnitMuS(muS), alpenglowShape.scatteringMuS);
-  float uR = insetCoordinate(scatteringUnitR(alpenglowMedium, altitude), alpenglowShape.scatteringR);
-  vec3 at = vec3((float(texel.x) + uMuS) / alpenglowShape.scatteringNu,
-                 (float(texel.y) + 0.5) / alpenglowShape.scatteringMu, uR);
-  imageStore(slice, texel, readScattering(at));
-  if (!kMiePacked) imageStore(sliceMie, texel, vec4(readSingleMie(at), 0.0));
+  bool hitsGround = texel.y < kSliceGroundRows;
+  float u = hitsGround ? unitFromTexel(float(texel.y), float(kSliceGroundRows))
+                       : unitFromTexel(float(texel.y - kSliceGroundRows), float(kSliceSkyRows));
+  float angle = sliceNadirAngle(SliceView(horizon, span), u, hitsGround);
+  float sineHalf = unitFromTexel(float(texel.x), float(kSliceAzimuths));
+  float mu = -cos(angle);
+  float sine = sin(angle);
+  float cosPhi = 1.0 - 2.0 * sineHalf * sineHalf;
+  float nu = clamp(mu * muS + sine * sqrt(max(1.0 - muS * muS, 0.0)) * cosPhi, -1.0, 1.0);
+  Ray ray = makeRay(alpenglowMedium, altitude, mu, sine, muS, nu);
+  // The row says on which side of the horizon a ray lies, whatever its angle rounds to.
+  ray.hitsGround = hitsGround;
+  ray.extent = hitsGround ? distanceToGround(alpenglowMedium, ray.h, ray.mu)
+                          : distanceToTop(alpenglowMedium, ray.h, ray.mu);
+  PathLight light = alpenglowPathLight(ray, ray.extent);
+  imageStore(slice, texel, vec4(light.rayleigh * rayleighPhase(nu) + light.multiple, 0.0));
+  imageStore(sliceMie, texel, vec4(light.mie, 0.0));
 }
