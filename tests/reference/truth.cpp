@@ -31,8 +31,8 @@ double worst(const Spectrum& value, const Spectrum& reference, const Spectrum& i
   double most = 0.0;
   for (uint32_t i = 0; i < kSpectrumSize; ++i) {
     const double error = relativeError(value[i], reference[i], irradiance[i]);
-    // A NaN is the worst of all.
-    if (!(error <= most)) most = error;
+    if (std::isnan(error)) return error;  // The worst of all.
+    most = std::max(most, error);
   }
   return most;
 }
@@ -147,6 +147,7 @@ AnswerError errorOf(const TruthQuery& query, const ProbeAnswer& answer) {
     const double difference = std::abs(answer.transmittance[i] - truth.transmittance[i]);
     const double relative = difference / std::max(truth.transmittance[i], 0.001);
     if (!(relative <= error.transmittance)) error.transmittance = relative;
+    if (std::isnan(relative)) break;
   }
   return error;
 }
