@@ -17,7 +17,7 @@ if (( ${#names[@]} == 0 )); then
 fi
 for name in "${names[@]}"; do
   case "$name" in
-    earth | earth-fig6) samples=() ;;  # Until the targets.
+    earth | earth-fig6 | earth-hazy) samples=() ;;  # Until the targets.
     haze*) samples=(--samples 262144) ;;
     earth-* | mars) samples=(--samples 131072) ;;
     *) samples=(--samples 65536) ;;
