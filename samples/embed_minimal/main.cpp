@@ -199,7 +199,7 @@ void drawSky(Host& host, const std::string& path, bool small) {
   ag::Parameters earth;
   check(ag::findPreset("earth", &earth), "Finding the Earth");
   ag::TableDesc desc;
-  if (small) desc.orders = 2, desc.sizes = {64, 16, 16, 4, 8, 32, 16, 4};
+  if (small) desc.orders = 2, desc.quality = ag::Quality::Draft;
   ag::Tables* tables = nullptr;
   check(ag::createTables(context, earth, desc, &tables), "Making the tables");
   for (ag::BakeProgress progress; !progress.done;) {
