@@ -41,9 +41,8 @@ class Field {
   /// Those of the sun on a horizontal surface, and of the sky; h up to the top.
   Spectrum direct(Real h, Real muS) { return sunlight(medium_, shape_, h, muS) * max(muS, 0.0f); }
   Spectrum sky(Real h, Real muS) { return fieldIrradiance(medium_, shape_, h, muS); }
-  /// R[L], equation 10.
   Spectrum groundRadiance(Real muS) {
-    return medium_.groundAlbedo / REAL(ALPENGLOW_PI) * (direct(0.0f, muS) + sky(0.0f, muS));
+    return reflectedRadiance(medium_.groundAlbedo, direct(0.0f, muS), sky(0.0f, muS));
   }
   Spectrum transmittance(const Ray& ray, Real length) const {
     return exp(-opticalDepthOfSegment(medium_, ray.h, ray.mu, length));

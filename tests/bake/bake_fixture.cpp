@@ -70,6 +70,37 @@ CpuTable BakeTest::read(Tables* tables, TableId id) {
   return table;
 }
 
+Status BakeTest::readbackStatus(Tables* tables, TableId id) {
+  std::string error;
+  const headless::HostBuffer buffer =
+      device().createHostBuffer(16 << 20, VK_BUFFER_USAGE_TRANSFER_DST_BIT, &error);
+  EXPECT_NE(buffer.data(), nullptr) << error;
+  Status result = Status::Ok;
+  run([&](VkCommandBuffer commands) {
+    result = recordTableReadback(tables, commands, id, buffer.buffer(), 0);
+    return true;
+  });
+  return result;
+}
+
+void BakeTest::upload(Tables* tables, TableId id, const CpuTable& table) {
+  std::string error;
+  headless::HostBuffer buffer =
+      device().createHostBuffer(table.bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, &error);
+  ASSERT_NE(buffer.data(), nullptr) << error;
+  std::copy(table.bytes.begin(), table.bytes.end(), static_cast<uint8_t*>(buffer.data()));
+  run([&](VkCommandBuffer commands) {
+    return recordTableUpload(tables, commands, device().frame(), id, buffer.buffer(), 0) ==
+           Status::Ok;
+  });
+}
+
+void BakeTest::expectSameBytes(const TableCopies& a, const TableCopies& b,
+                               const std::string& what) {
+  for (const auto& [id, table] : a)
+    EXPECT_EQ(table.bytes, b.at(id).bytes) << table.info.name << " " << what;
+}
+
 std::vector<ProbeAnswer> BakeTest::probe(Tables* tables, const std::vector<ProbeQuery>& queries) {
   std::vector<ProbeAnswer> answers(queries.size());
   std::string error;

@@ -49,6 +49,10 @@ class BakeTest : public DeviceTest {
   void bake(Tables* tables, uint64_t budget = 0, const std::string& until = "");
   Tables* bakeTables(const Parameters& parameters, const TableDesc& desc, uint64_t budget = 0);
   CpuTable read(Tables* tables, TableId id);
+  /// What a readback answers, into a buffer of 16 MiB.
+  Status readbackStatus(Tables* tables, TableId id);
+  void upload(Tables* tables, TableId id, const CpuTable& table);
+  void expectSameBytes(const TableCopies& a, const TableCopies& b, const std::string& what);
   std::vector<ProbeAnswer> probe(Tables* tables, const std::vector<ProbeQuery>& queries);
 
  private:

@@ -24,11 +24,6 @@ class MomentsTest : public BakeTest {
     for (TableId id : kFinalTables) copies[id] = read(tables, id);
     return copies;
   }
-
-  void expectSameBytes(const TableCopies& a, const TableCopies& b, const std::string& what) {
-    for (const auto& [id, table] : a)
-      EXPECT_EQ(table.bytes, b.at(id).bytes) << table.info.name << " " << what;
-  }
 };
 
 TEST_F(MomentsTest, TheBytesDoNotDependOnTheBudget) {
@@ -125,15 +120,7 @@ TEST_F(MomentsTest, AnUploadGivesTheSameTables) {
   Tables* uploaded = makeTables(earth, tinyDesc(3));
   for (const auto& [id, table] : baked) {
     EXPECT_FALSE(tablesReady(uploaded));
-    std::string error;
-    headless::HostBuffer buffer =
-        device().createHostBuffer(table.bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, &error);
-    ASSERT_NE(buffer.data(), nullptr) << error;
-    std::copy(table.bytes.begin(), table.bytes.end(), static_cast<uint8_t*>(buffer.data()));
-    run([&, id = id](VkCommandBuffer commands) {
-      return recordTableUpload(uploaded, commands, device().frame(), id, buffer.buffer(), 0) ==
-             Status::Ok;
-    });
+    upload(uploaded, id, table);
   }
   EXPECT_TRUE(tablesReady(uploaded));
   expectSameBytes(baked, readAll(uploaded), "after an upload");
@@ -145,17 +132,7 @@ TEST_F(MomentsTest, TablesOfOrdersAreReadRightAfterTheirPass) {
   desc.keepOrders = true;
   desc.format = TableFormat::Float;
   Tables* tables = makeTables(preset("earth"), desc);
-  std::string error;
-  const headless::HostBuffer buffer =
-      device().createHostBuffer(1 << 20, VK_BUFFER_USAGE_TRANSFER_DST_BIT, &error);
-  const auto status = [&](TableId id) {
-    Status result = Status::Ok;
-    run([&](VkCommandBuffer commands) {
-      result = recordTableReadback(tables, commands, id, buffer.buffer(), 0);
-      return true;
-    });
-    return result;
-  };
+  const auto status = [&](TableId id) { return readbackStatus(tables, id); };
   bake(tables, 0, "M 1");
   EXPECT_EQ(status(TableId::OrderMoments), Status::NotReady);
   EXPECT_NE(lastDiagnostic().find("\"N 1\""), std::string::npos) << lastDiagnostic();

@@ -26,11 +26,6 @@ class SlicingTest : public BakeTest {
       if (!packed || id != TableId::SingleMie) copies[id] = read(tables, id);
     return copies;
   }
-
-  void expectSameBytes(const TableCopies& a, const TableCopies& b, const std::string& what) {
-    for (const auto& [id, table] : a)
-      EXPECT_EQ(table.bytes, b.at(id).bytes) << table.info.name << " " << what;
-  }
 };
 
 TEST_F(SlicingTest, TheBytesDoNotDependOnTheBudget) {
@@ -142,15 +137,7 @@ TEST_F(SlicingTest, AnUploadGivesTheSameTables) {
   Tables* uploaded = makeTables(earth, tinyDesc());
   EXPECT_FALSE(tablesReady(uploaded));
   for (const auto& [id, table] : baked) {
-    std::string error;
-    headless::HostBuffer buffer =
-        device().createHostBuffer(table.bytes.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, &error);
-    ASSERT_NE(buffer.data(), nullptr) << error;
-    std::copy(table.bytes.begin(), table.bytes.end(), static_cast<uint8_t*>(buffer.data()));
-    run([&, id = id](VkCommandBuffer commands) {
-      return recordTableUpload(uploaded, commands, device().frame(), id, buffer.buffer(), 0) ==
-             Status::Ok;
-    });
+    upload(uploaded, id, table);
   }
   EXPECT_TRUE(tablesReady(uploaded));
   expectSameBytes(baked, readAll(uploaded), "after an upload");

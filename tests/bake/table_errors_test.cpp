@@ -110,17 +110,7 @@ TEST_F(TableErrorsTest, OrderTablesAreReadOnlyBetweenOrders) {
   desc.orders = 2;
   desc.keepOrders = true;
   Tables* tables = makeTables(preset("earth"), desc);
-  std::string error;
-  const headless::HostBuffer buffer =
-      device().createHostBuffer(16 << 20, VK_BUFFER_USAGE_TRANSFER_DST_BIT, &error);
-  const auto status = [&](TableId id) {
-    Status result = Status::Ok;
-    run([&](VkCommandBuffer commands) {
-      result = recordTableReadback(tables, commands, id, buffer.buffer(), 0);
-      return true;
-    });
-    return result;
-  };
+  const auto status = [&](TableId id) { return readbackStatus(tables, id); };
   EXPECT_EQ(status(TableId::OrderScattering), Status::NotReady);
   bake(tables, 0, "dE 1");
   EXPECT_EQ(status(TableId::OrderScattering), Status::NotReady);

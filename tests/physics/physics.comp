@@ -13,5 +13,12 @@ void main() {
                    opticalDepthOfSegment(medium, ray.h, ray.mu, ray.extent);
   float u = scatteringUnitMu(medium, ray.h, ray.mu, ray.hitsGround);
   result[0] = vec4(depth, u);
+  MomentShape shape;
+  shape.sunWidth = shape.sunRange = shape.depthScale = shape.depthSharpness = 1.0;
+  Piece piece = makePiece(medium, ray, 0.0, ray.extent);
+  SliceView view = SliceView(1.5, 1.6);
+  result[2] = vec4(depthCoordinate(medium, shape, ray.h, ray.mu), pieceNode(piece, 0.5));
+  result[3] = vec4(reflectedRadiance(medium.groundAlbedo, depth, depth),
+                   sliceCoordinate(view, angleFromNadir(ray.mu, 0.5), 0.5, ray.hitsGround).x);
   result[1] = vec4(toneMapFilmic(depth), miePhase(medium.mieAsymmetry, ray.nu));
 }

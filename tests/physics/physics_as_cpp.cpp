@@ -17,6 +17,15 @@ physics::Spectrum callEachFile(const physics::Medium& medium) {
       physics::makeRay(medium, Real(2), Real(0.1), Real(0.99), Real(0.5), Real(0.3));
   const physics::Spectrum depth = physics::opticalDepthToTop(medium, ray.h, ray.mu, 500) +
                                   physics::opticalDepthOfSegment(medium, ray.h, ray.mu, ray.extent);
+  const physics::MomentShape shape{};
+  const physics::Piece piece = physics::makePiece(medium, ray, Real(0), ray.extent);
+  const physics::SliceView view{Real(1.5), Real(1.6)};
+  const physics::Real2 at =
+      physics::depthCoordinate(medium, shape, ray.h, ray.mu) +
+      physics::pieceNode(piece, Real(0.5)) +
+      physics::sliceCoordinate(view, physics::angleFromNadir(ray.mu, Real(0.5)), Real(0.5),
+                               ray.hitsGround);
+  if (at[0] > Real(0)) return physics::reflectedRadiance(medium.groundAlbedo, depth, depth);
   const Real u = physics::scatteringUnitMu(medium, ray.h, ray.mu, ray.hitsGround);
   return physics::toneMapFilmic(depth) * (u + physics::miePhase(medium.mieAsymmetry, ray.nu));
 }

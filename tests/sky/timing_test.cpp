@@ -95,6 +95,7 @@ TEST_F(TimingTest, ASliceMakesAPixelOfSkyCheaper) {
   for (MieStorage mie : {MieStorage::Packed, MieStorage::Full}) {
     // The paper's sizes; one order is enough to look things up in.
     TableDesc desc;
+    desc.solver = Solver::Standard;
     desc.orders = 1;
     desc.mie = mie;
     Tables* tables = nullptr;

@@ -43,7 +43,8 @@ struct ViewDesc {
   MieStorage mie = MieStorage::Full;  ///< The same; of Solver::Standard.
   GroundAlbedoMap groundAlbedo;
   /// Tables whose shape a sky slice takes; null: the view has none. With a slice, recordSkySlice
-  /// once a frame makes a pixel of recordSky cost about half, for cameras inside the atmosphere.
+  /// once a frame makes a pixel of recordSky much cheaper; of Solver::Standard, for cameras inside
+  /// the atmosphere only.
   const Tables* skySlice = nullptr;
 };
 
@@ -77,12 +78,13 @@ struct SkyDraw {
   VkRect2D viewport = {};      ///< In pixels of the colour attachment.
 };
 
-/// Records, outside any rendering scope, the slice of the scattering table that this draw's camera
-/// and sun look into: one small dispatch. A recordSky of the same tables, camera position and sun
-/// direction that follows in recording order reads it, to the same picture; any other reads the
-/// tables. InvalidArgument without ViewDesc::skySlice, and for tables of another shape. Nothing is
-/// recorded for a camera outside the atmosphere. Clobbers: compute pipeline, sets 0 and 1, push
-/// constants.
+/// Records, outside any rendering scope, the slice that this draw's camera and sun look into: one
+/// dispatch, of the light along all rays (moments) or of the scattering table (standard). A
+/// recordSky of the same tables, camera position and sun direction that follows in recording order
+/// reads it; any other reads the tables. InvalidArgument without ViewDesc::skySlice, and for tables
+/// of another shape. With Solver::Standard nothing is recorded for a camera outside the atmosphere,
+/// and the picture is that of the tables; with Moments it is interpolated between the slice's 64 x
+/// 160 rays. Clobbers: compute pipeline, sets 0 and 1, push constants.
 Status recordSkySlice(View* view, VkCommandBuffer commands, const FrameInfo& frame,
                       const Tables* tables, const SkyDraw& draw);
 

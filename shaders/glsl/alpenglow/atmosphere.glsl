@@ -73,10 +73,10 @@ void alpenglowSunAndSkyIrradiance(float altitude, float muS, out Spectrum sun, o
   sky = alpenglowSkyIrradiance(altitude, muS);
 }
 
-// R[L], equation 10: light that a Lambertian ground at altitude 0 sends up; equation 14 with n = n-bar.
+// Light that a Lambertian ground at altitude 0 sends up.
 Spectrum alpenglowGroundRadiance(Spectrum albedo, float muS) {
-  return albedo / ALPENGLOW_PI *
-         (alpenglowSunlight(0.0, muS) * max(muS, 0.0) + alpenglowSkyIrradiance(0.0, muS));
+  return reflectedRadiance(albedo, alpenglowSunlight(0.0, muS) * max(muS, 0.0),
+                           alpenglowSkyIrradiance(0.0, muS));
 }
 
 #endif  // ALPENGLOW_ATMOSPHERE

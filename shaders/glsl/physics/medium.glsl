@@ -34,6 +34,12 @@ ALPENGLOW_FN Real absorptionDensity(IN(Medium) m, Real h) {
   return max(REAL(0.0), REAL(1.0) - abs(h - m.absorptionCenter) / m.absorptionHalfWidth);
 }
 
+// R[L], equation 10: light that a Lambertian ground sends up under these irradiances of a horizontal
+// surface; equation 14 with n = n-bar.
+ALPENGLOW_FN Spectrum reflectedRadiance(Spectrum albedo, Spectrum direct, Spectrum sky) {
+  return albedo / REAL(ALPENGLOW_PI) * (direct + sky);
+}
+
 // Extinction of what thins out exponentially, and of the tent, 1/m. They are apart because they are
 // smooth in different stretches of a ray.
 ALPENGLOW_FN Spectrum exponentialExtinction(IN(Medium) m, Real h) {
