@@ -1,3 +1,4 @@
+#include <alpenglow/shaders/moment_between.h>
 #include <alpenglow/shaders/moment_depth.h>
 #include <alpenglow/shaders/moment_field.h>
 #include <alpenglow/shaders/moment_field_none.h>
@@ -6,6 +7,7 @@
 #include <alpenglow/shaders/moment_legendre.h>
 #include <alpenglow/shaders/moment_light.h>
 #include <alpenglow/shaders/moment_modes.h>
+#include <alpenglow/shaders/moment_rotations.h>
 #include <alpenglow/shaders/moment_rules.h>
 #include <alpenglow/shaders/moment_single.h>
 #include <alpenglow/shaders/moment_source_modes.h>
@@ -15,6 +17,7 @@
 #include <alpenglow/shaders/moment_source_rgba32f.h>
 #include <alpenglow/shaders/moment_source_sum_rgba16f.h>
 #include <alpenglow/shaders/moment_source_sum_rgba32f.h>
+#include <alpenglow/shaders/moment_turned.h>
 
 #include <cstring>
 
@@ -40,6 +43,7 @@ enum Binding : uint32_t {
   kSourceModes = 6,
   kRules = 7,
   kLegendre = 8,
+  kRotations = 8,
   kSum = 4,
   kLast = 5,
   kBefore = 6,
@@ -66,7 +70,9 @@ class Builder {
         nodes_(c_.nodesR * c_.nodesMuS),
         rings_(c_.ringsSky + c_.ringsLimb + c_.ringsGround),
         modesPerRing_(c_.degree + 1),
-        harmonics_((c_.degree + 1) * (c_.degree + 2) / 2) {}
+        harmonics_((c_.degree + 1) * (c_.degree + 2) / 2),
+        fieldR_(fieldTexels(c_.nodesR)),
+        fieldMuS_(fieldTexels(c_.nodesMuS)) {}
 
   SolverPlan build() {
     addTables();
@@ -79,7 +85,7 @@ class Builder {
   }
 
  private:
-  uint32_t floats(const char* name, uint32_t width, uint32_t height, bool filtered) {
+  uint32_t floats(const char* name, uint32_t width, uint32_t height, bool filtered = false) {
     PlanImage image;
     image.name = name;
     image.extent = {width, height, 1};
@@ -88,11 +94,17 @@ class Builder {
     return plan_.addImage(image);
   }
 
+  uint32_t scalars(const char* name, uint32_t width, uint32_t height) {
+    const uint32_t image = floats(name, width, height);
+    plan_.images[image].format = VK_FORMAT_R32_SFLOAT;
+    return image;
+  }
+
   uint32_t sources(const char* name, VkFormat format) {
     PlanImage image;
     image.name = name;
     image.type = VK_IMAGE_TYPE_3D;
-    image.extent = {c_.sourceTheta * c_.sourcePhi, c_.nodesMuS, c_.nodesR};
+    image.extent = {c_.sourceGamma * c_.sourcePsi, c_.nodesMuS, c_.nodesR};
     image.format = format;
     return plan_.addImage(image);
   }
@@ -110,7 +122,7 @@ class Builder {
   void addTables() {
     const VkFormat format = vulkanFormat(half_ ? TableFormat::Half : TableFormat::Float);
     t_ = floats("Alpenglow optical depth", c_.depthMu, c_.depthH, true);
-    total_ = floats("Alpenglow moments", c_.nodesMuS, c_.nodesR * kLayers, true);
+    total_ = floats("Alpenglow moments", fieldMuS_, fieldR_ * kLayers, true);
     source_ = sources("Alpenglow source", format);
     for (uint32_t image : {t_, total_, source_}) plan_.images[image].persistent = true;
     plan_.tables = {
@@ -125,22 +137,25 @@ class Builder {
 
   // What every order uses, and the images that orders leave to each other.
   void addPreparation() {
-    const uint32_t rows = rings_ * (1 + kFineRings) * c_.nodesR + c_.sourceTheta;
-    rules_ = floats("Alpenglow rules", rings_ * kFineRings, 2, false);
-    legendre_ = floats("Alpenglow Legendre", harmonics_, rows, false);
-    modes_ = floats("Alpenglow modes", modesPerRing_ * rings_ * kFineRings, nodes_, false);
-    moments_ = floats("Alpenglow harmonics", harmonics_, nodes_, false);
-    sourceModes_ = floats("Alpenglow source modes", modesPerRing_ * c_.sourceTheta, nodes_, false);
-    sum_ = floats("Alpenglow sum", c_.nodesMuS, c_.nodesR * kLayers, false);
-    // Two, by turns: an order reads the one of the order before.
-    for (uint32_t i = 0; i < (orders_ > 2 ? 2u : 1u); ++i) {
-      fields_[i] = floats("Alpenglow order", c_.nodesMuS, c_.nodesR * kLayers, true);
-      plain_[i] = floats("Alpenglow plain order", c_.nodesMuS, c_.nodesR * kLayers, false);
-    }
+    const uint32_t rows = rings_ * (1 + kFineRings) * c_.nodesR + c_.sourceGamma;
+    rules_ = floats("Alpenglow rules", rings_ * kFineRings, 2);
+    legendre_ = scalars("Alpenglow Legendre", harmonics_, rows);
+    rotations_ =
+        scalars("Alpenglow rotations", modesPerRing_ * modesPerRing_, modesPerRing_ * c_.nodesMuS);
+    modes_ = floats("Alpenglow modes", modesPerRing_ * rings_ * kFineRings, nodes_);
+    moments_ = floats("Alpenglow harmonics", harmonics_, nodes_);
+    turned_ = floats("Alpenglow turned harmonics", harmonics_, nodes_);
+    sourceModes_ = floats("Alpenglow source modes", modesPerRing_ * c_.sourceGamma, nodes_);
+    sum_ = nodeLayers("Alpenglow sum");
+    // Two, by turns: the tail asks for the last two.
+    for (uint32_t i = 0; i < (orders_ > 2 ? 2u : 1u); ++i)
+      plain_[i] = nodeLayers("Alpenglow plain order");
+    nodeField_ = nodeLayers("Alpenglow order");
+    orderField_ = floats("Alpenglow order between", fieldMuS_, fieldR_ * kLayers, true);
     orderSource_ = sources("Alpenglow order source", plan_.images[source_].format);
     sourceSum_ = sources("Alpenglow source sum", VK_FORMAT_R32G32B32A32_SFLOAT);
     plan_.images[sourceSum_].filtered = false;
-    plan_.tables.push_back({TableId::OrderMoments, fields_[0]});
+    plan_.tables.push_back({TableId::OrderMoments, nodeField_});
     plan_.tables.push_back({TableId::OrderSource, orderSource_});
 
     Stage rules = stage(ALPENGLOW_SHADER(kMomentRules), rings_ * kFineRings, 2,
@@ -152,29 +167,38 @@ class Builder {
     legendre.inputs = {{kRules, rules_}};
     legendre.outputs = {{legendre_}};
     plan_.addPass(plan_.addStage(legendre), "Y", 0);
+
+    const VkExtent3D& turns = plan_.images[rotations_].extent;
+    Stage rotations =
+        stage(ALPENGLOW_SHADER(kMomentRotations), turns.width, turns.height, 2 * c_.degree);
+    rotations.outputs = {{rotations_}};
+    plan_.addPass(plan_.addStage(rotations), "W", 0);
   }
+
+  // The five layers of each node.
+  uint32_t nodeLayers(const char* name) { return floats(name, c_.nodesMuS, c_.nodesR * kLayers); }
 
   // L 1: along a ray that is cut about twice, each of two nodes of a panel reads T twice.
   uint32_t addSingle() {
     const uint32_t width = c_.azimuths * rings_ * kFineRings;
     for (uint32_t i = 0; i < 3; ++i)
-      single_[i] = floats("Alpenglow single scattering", width, nodes_, false);
+      single_[i] = floats("Alpenglow single scattering", width, nodes_);
     Stage single =
         stage(ALPENGLOW_SHADER(kMomentSingle), width, nodes_, uint64_t(c_.solverPanels) * 8);
     // The text of a ray's light reads field and source too, where there are such: here it never
     // does, but Vulkan asks for images.
-    single.inputs = {{kDepth, t_}, {kField, fields_[0]}, {kSource, orderSource_}, {kRules, rules_}};
+    single.inputs = {
+        {kDepth, t_}, {kField, orderField_}, {kSource, orderSource_}, {kRules, rules_}};
     single.outputs = {{single_[0]}, {single_[1]}, {single_[2]}};
     return plan_.addStage(single);
   }
 
   // L n: each of the nodes reads the field four times and the source twice.
-  uint32_t addLight(uint32_t fieldBefore) {
+  uint32_t addLight() {
     const uint32_t width = c_.azimuths * rings_;
     Stage light =
         stage(ALPENGLOW_SHADER(kMomentLight), width, nodes_, uint64_t(c_.solverPanels) * 24);
-    light.inputs = {
-        {kDepth, t_}, {kField, fields_[fieldBefore]}, {kSource, orderSource_}, {kRules, rules_}};
+    light.inputs = {{kDepth, t_}, {kField, orderField_}, {kSource, orderSource_}, {kRules, rules_}};
     light.outputs = {{light_}};
     return plan_.addStage(light);
   }
@@ -202,10 +226,17 @@ class Builder {
     return plan_.addStage(harmonics);
   }
 
+  uint32_t addTurned() {
+    Stage turned = stage(ALPENGLOW_SHADER(kMomentTurned), harmonics_, nodes_, 2 * c_.degree);
+    turned.inputs = {{kMoments, moments_}, {kRotations, rotations_}};
+    turned.outputs = {{turned_}};
+    return plan_.addStage(turned);
+  }
+
   uint32_t addSourceModes() {
-    Stage modes = stage(ALPENGLOW_SHADER(kMomentSourceModes), modesPerRing_ * c_.sourceTheta,
+    Stage modes = stage(ALPENGLOW_SHADER(kMomentSourceModes), modesPerRing_ * c_.sourceGamma,
                         nodes_, modesPerRing_);
-    modes.inputs = {{kMoments, moments_}, {kLegendre, legendre_}};
+    modes.inputs = {{kMoments, turned_}, {kLegendre, legendre_}};
     modes.outputs = {{sourceModes_}};
     return plan_.addStage(modes);
   }
@@ -215,18 +246,27 @@ class Builder {
                         uint64_t(c_.ringsSky) * (first ? kFineRings : 1) * 2 + 4 * kLayers);
     field.constants[0] = first;
     field.inputs = {{kModes, modes_}, {kMoments, moments_}, {kRules, rules_}};
-    field.outputs = {{fields_[to]}, {plain_[to]}, {sum_, !first}};
-    field.finishes = {{TableId::OrderMoments, fields_[to]}};
+    field.outputs = {{nodeField_}, {plain_[to]}, {sum_, !first}};
+    field.finishes = {{TableId::OrderMoments, nodeField_}};
     return plan_.addStage(field);
   }
 
-  uint32_t addSource(bool first, uint32_t from) {
+  // Cubics through 4 x 4 nodes.
+  uint32_t addBetween(uint32_t to) {
+    const VkExtent3D& extent = plan_.images[to].extent;
+    Stage between = stage(ALPENGLOW_SHADER(kMomentBetween), extent.width, extent.height, 16);
+    between.inputs = {{kField, nodeField_}};
+    between.outputs = {{to}};
+    return plan_.addStage(between);
+  }
+
+  uint32_t addSource(bool first) {
     const VkExtent3D& extent = plan_.images[orderSource_].extent;
     Stage source = stage(ALPENGLOW_FORMAT_SHADER(kMomentSource), extent.width, extent.height,
                          modesPerRing_ + 4);
     source.rows *= extent.depth;
     source.constants[0] = first;
-    source.inputs = {{kSourceModes, sourceModes_}, {kField, fields_[from]}};
+    source.inputs = {{kSourceModes, sourceModes_}, {kField, nodeField_}};
     source.outputs = {{orderSource_}, {sourceSum_, !first}};
     source.finishes = {{TableId::OrderSource, orderSource_}};
     return plan_.addStage(source);
@@ -237,16 +277,17 @@ class Builder {
     struct Stages {
       uint32_t light, modes, harmonics, field, source;
     };
-    const uint32_t sourceModes = addSourceModes();
+    const uint32_t turned = addTurned(), sourceModes = addSourceModes();
+    const uint32_t between = addBetween(orderField_);
     const Stages first = {addSingle(), addModes(true), addHarmonics(true), addField(true, 0),
-                          addSource(true, 0)};
+                          addSource(true)};
     Stages further[2] = {};
     if (orders_ > 2) {
-      light_ = floats("Alpenglow light", c_.azimuths * rings_, nodes_, false);
-      const uint32_t modes = addModes(false), harmonics = addHarmonics(false);
+      light_ = floats("Alpenglow light", c_.azimuths * rings_, nodes_);
+      const Stages any = {addLight(), addModes(false), addHarmonics(false), 0, addSource(false)};
       for (uint32_t i = 0; i < (orders_ > 3 ? 2u : 1u); ++i) {
-        further[i] = {addLight(i), modes, harmonics, addField(false, 1 - i),
-                      addSource(false, 1 - i)};
+        further[i] = any;
+        further[i].field = addField(false, 1 - i);
       }
     }
     for (uint32_t order = 1; order < orders_; ++order) {
@@ -254,47 +295,60 @@ class Builder {
       plan_.addPass(s.light, "L", order);
       plan_.addPass(s.modes, "F", order);
       plan_.addPass(s.harmonics, "M", order);
+      plan_.addPass(turned, "R", order);
       plan_.addPass(sourceModes, "H", order);
       plan_.addPass(s.field, "N", order);
+      plan_.addPass(between, "I", order);
       plan_.addPass(s.source, "J", order + 1);
     }
   }
 
   void addSums() {
-    const VkExtent3D& extent = plan_.images[source_].extent;
-    const bool none = orders_ == 1;
-    Stage field =
-        stage(none ? ALPENGLOW_SHADER(kMomentFieldNone) : ALPENGLOW_SHADER(kMomentFieldSum),
-              c_.nodesMuS, c_.nodesR, 4 * kLayers);
+    if (orders_ == 1) return addNoLight();
+    // Order n lies in plain_[(n - 1) % 2], and the last is N - 1. If it is the only one, it stands
+    // for the order before too: there is no tail then that would ask for it.
+    const uint32_t last = orders_ % 2, before = orders_ > 2 ? 1 - last : last;
+    Stage field = stage(ALPENGLOW_SHADER(kMomentFieldSum), c_.nodesMuS, c_.nodesR, 4 * kLayers);
+    field.inputs = {{kSum, sum_}, {kLast, plain_[last]}, {kBefore, plain_[before]}};
+    field.outputs = {{nodeField_}};
+    Stage source = sourceStage(ALPENGLOW_FORMAT_SHADER(kMomentSourceSum));
+    source.inputs = {{kField, nodeField_},
+                     {kSource, orderSource_},
+                     {kSum, sourceSum_},
+                     {kLast, plain_[last]},
+                     {kBefore, plain_[before]}};
+    plan_.addPass(plan_.addStage(field), "N sum", 0);
+    plan_.addPass(addBetween(total_), "I sum", 0);
+    plan_.addPass(plan_.addStage(source), "J sum", 0);
+  }
+
+  // None was solved.
+  void addNoLight() {
+    Stage field = stage(ALPENGLOW_SHADER(kMomentFieldNone), fieldMuS_, fieldR_, kLayers);
     field.outputs = {{total_}};
-    Stage source = stage(none ? ALPENGLOW_FORMAT_SHADER(kMomentSourceNone)
-                              : ALPENGLOW_FORMAT_SHADER(kMomentSourceSum),
-                         extent.width, extent.height, 5);
+    plan_.addPass(plan_.addStage(field), "N sum", 0);
+    plan_.addPass(plan_.addStage(sourceStage(ALPENGLOW_FORMAT_SHADER(kMomentSourceNone))), "J sum",
+                  0);
+  }
+
+  Stage sourceStage(const engine::Shader& shader) {
+    const VkExtent3D& extent = plan_.images[source_].extent;
+    Stage source = stage(shader, extent.width, extent.height, 5);
     source.rows *= extent.depth;
     source.outputs = {{source_}};
-    if (!none) {
-      // Order n lies in field (n - 1) % 2, and the last is N - 1. If it is the only one, it stands
-      // for the order before too: there is no tail then that would ask for it.
-      const uint32_t last = orders_ % 2, before = orders_ > 2 ? 1 - last : last;
-      field.inputs = {{kSum, sum_}, {kLast, plain_[last]}, {kBefore, plain_[before]}};
-      source.inputs = {{kField, total_},
-                       {kSource, orderSource_},
-                       {kSum, sourceSum_},
-                       {kLast, plain_[last]},
-                       {kBefore, plain_[before]}};
-    }
-    plan_.addPass(plan_.addStage(field), "N sum", 0);
-    plan_.addPass(plan_.addStage(source), "J sum", 0);
+    return source;
   }
 
   MomentSettings c_;
   bool half_;
-  uint32_t orders_, nodes_, rings_, modesPerRing_, harmonics_;
+  uint32_t orders_, nodes_, rings_, modesPerRing_, harmonics_, fieldR_, fieldMuS_;
   SolverPlan plan_;
   uint32_t t_ = 0, total_ = 0, source_ = 0;
-  uint32_t rules_ = 0, legendre_ = 0, modes_ = 0, moments_ = 0, sourceModes_ = 0;
+  uint32_t rules_ = 0, legendre_ = 0, rotations_ = 0;
+  uint32_t modes_ = 0, moments_ = 0, turned_ = 0, sourceModes_ = 0;
   uint32_t single_[3] = {}, light_ = 0;
-  uint32_t fields_[2] = {}, plain_[2] = {}, sum_ = 0, orderSource_ = 0, sourceSum_ = 0;
+  uint32_t nodeField_ = 0, orderField_ = 0, plain_[2] = {}, sum_ = 0;
+  uint32_t orderSource_ = 0, sourceSum_ = 0;
 };
 
 #undef ALPENGLOW_SHADER

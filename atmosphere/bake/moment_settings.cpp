@@ -9,7 +9,7 @@ namespace bake {
 namespace {
 
 // Draft ... Ultra. In the order of MomentSettings: depthMu, depthH; nodesR, nodesMuS; ringsSky,
-// ringsLimb, ringsGround; azimuths, degree; sourceTheta, sourcePhi; solverPanels, viewPanels.
+// ringsLimb, ringsGround; azimuths, degree; sourceGamma, sourcePsi; solverPanels, viewPanels.
 constexpr MomentSettings kLevels[] = {{128, 64, 8, 24, 8, 4, 4, 8, 8, 24, 8, 3, 5},
                                       {192, 96, 12, 32, 10, 5, 6, 10, 10, 24, 12, 4, 6},
                                       {256, 128, 16, 48, 14, 6, 8, 14, 14, 32, 16, 5, 8},

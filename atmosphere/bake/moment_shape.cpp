@@ -50,8 +50,11 @@ physics_f64::MomentShape makeMomentShapeF64(const Parameters& parameters, const 
   s.depthH = c.depthH;
   s.nodesR = c.nodesR;
   s.nodesMuS = c.nodesMuS;
-  s.sourceTheta = c.sourceTheta;
-  s.sourcePhi = c.sourcePhi;
+  s.fieldR = fieldTexels(c.nodesR);
+  s.fieldMuS = fieldTexels(c.nodesMuS);
+  s.sourceGamma = c.sourceGamma;
+  s.sourcePsi = c.sourcePsi;
+  s.sourceSharpness = std::clamp(0.5 / (1.0 - std::abs(medium.mieAsymmetry)), 2.0, 12.0);
   s.peakAsymmetry = medium.mieAsymmetry * std::abs(medium.mieAsymmetry);
   s.peakShare = 0.3;
   s.ringsSky = c.ringsSky;

@@ -44,12 +44,12 @@ TablePart scatteringPart(const TableDesc& desc, const std::string& name) {
 
 TablePart momentsPart(const TableDesc& desc, const std::string& name) {
   const MomentSettings& m = desc.moments;
-  return {name, m.nodesMuS, m.nodesR * kMomentLayers, 1, desc.format, {}};
+  return {name, fieldTexels(m.nodesMuS), fieldTexels(m.nodesR) * kMomentLayers, 1, desc.format, {}};
 }
 
 TablePart sourcePart(const TableDesc& desc, const std::string& name) {
   const MomentSettings& m = desc.moments;
-  return {name, m.sourceTheta * m.sourcePhi, m.nodesMuS, m.nodesR, desc.format, {}};
+  return {name, m.sourceGamma * m.sourcePsi, m.nodesMuS, m.nodesR, desc.format, {}};
 }
 
 Done checkTexels(const std::string& what, std::initializer_list<uint32_t> sides) {
@@ -63,8 +63,10 @@ Done checkTexels(const std::string& what, std::initializer_list<uint32_t> sides)
 Done checkMomentSizes(const MomentSettings& m) {
   Done done = checkMomentSettings(m);
   if (done) done = checkTexels("of the optical depth", {m.depthMu, m.depthH});
-  if (done) done = checkTexels("of the moments", {m.nodesMuS, m.nodesR, kMomentLayers});
-  if (done) done = checkTexels("of the source", {m.sourceTheta, m.sourcePhi, m.nodesMuS, m.nodesR});
+  if (done)
+    done = checkTexels("of the moments",
+                       {fieldTexels(m.nodesMuS), fieldTexels(m.nodesR), kMomentLayers});
+  if (done) done = checkTexels("of the source", {m.sourceGamma, m.sourcePsi, m.nodesMuS, m.nodesR});
   return done;
 }
 

@@ -22,8 +22,8 @@ constexpr Field kFields[] = {{"depthMu", &MomentSettings::depthMu, kMaxTableSide
                              {"ringsGround", &MomentSettings::ringsGround, kMaxTableSide},
                              {"azimuths", &MomentSettings::azimuths, kMaxTableSide},
                              {"degree", &MomentSettings::degree, kMaxDegree},
-                             {"sourceTheta", &MomentSettings::sourceTheta, kMaxTableSide},
-                             {"sourcePhi", &MomentSettings::sourcePhi, kMaxTableSide},
+                             {"sourceGamma", &MomentSettings::sourceGamma, kMaxTableSide},
+                             {"sourcePsi", &MomentSettings::sourcePsi, kMaxTableSide},
                              {"solverPanels", &MomentSettings::solverPanels, kMaxTableSide},
                              {"viewPanels", &MomentSettings::viewPanels, kMaxTableSide}};
 static_assert(sizeof(MomentSettings) == std::size(kFields) * sizeof(uint32_t),

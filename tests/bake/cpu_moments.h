@@ -27,7 +27,7 @@ class Solver {
       const bool used = x < ringCount(shape, y == 0 ? 1 : kFineRings);
       return used ? Spectrum(ringRule(shape, x, y), 0.0) : Spectrum(0.0);
     });
-    fill(&legendre_, harmonics(), legendreRowOfSource(shape, 0) + int(shape.sourceTheta),
+    fill(&legendre_, harmonics(), legendreRowOfSource(shape, 0) + int(shape.sourceGamma),
          [&](int x, int y) { return Spectrum(legendreOfTexel(medium, shape, x, y)); });
   }
 
@@ -113,7 +113,7 @@ inline void Solver::solve(bool first) {
   makeModes(first, nodes);
   fill(&moments_, harmonics(), nodes,
        [&](int x, int y) { return momentOfNode(shape_, x, y, first); });
-  fill(&sourceModes_, (int(shape_.degree) + 1) * int(shape_.sourceTheta), nodes,
+  fill(&sourceModes_, (int(shape_.degree) + 1) * int(shape_.sourceGamma), nodes,
        [&](int x, int y) { return sourceModeOfNode(shape_, x, y); });
 }
 

@@ -83,7 +83,7 @@ const std::vector<std::string>& smallTables() {
 const std::vector<std::string>& smallMoments() {
   static const std::vector<std::string> kOptions = {
       "--quality", "draft", "--moments",
-      "depthMu=32,depthH=16,nodesR=6,nodesMuS=12,degree=4,azimuths=4,sourceTheta=12,sourcePhi=4"};
+      "depthMu=32,depthH=16,nodesR=6,nodesMuS=12,degree=4,azimuths=4,sourceGamma=12,sourcePsi=4"};
   return kOptions;
 }
 

@@ -90,7 +90,7 @@ TEST_F(TableChoice, ASceneChoosesTheSolverUnlessAnOptionDoes) {
 
 TEST_F(TableChoice, SettingsThatDoNotFitAreRefused) {
   expectRefused(
-      {"bake", "earth", "-o", folder_ / "t.exr", "--moments", "sourceTheta=4096,sourcePhi=4096"},
+      {"bake", "earth", "-o", folder_ / "t.exr", "--moments", "sourceGamma=4096,sourcePsi=4096"},
       {"source", "texels"});
 }
 

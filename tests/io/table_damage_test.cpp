@@ -160,7 +160,7 @@ TEST_F(Damage, OtherDescriptionsOfTheMomentSolver) {
   quality[quality.find(low) + low.size() - 1] = 'x';
   expectRefused(withChecksum(quality), "quality 'lox'");
   for (const char* setting :
-       {"depthMu=4", "depthH=3", "nodesR=2", "nodesMuS=3", "sourceTheta=3", "sourcePhi=2"}) {
+       {"depthMu=4", "depthH=3", "nodesR=2", "nodesMuS=3", "sourceGamma=3", "sourcePsi=2"}) {
     std::string other = setting;
     other.back() = '7';
     expectRefused(patched(setting, other), "shape");
@@ -179,16 +179,16 @@ TEST_F(Damage, AHugeSizeIsRefusedBeforeItIsAllocated) {
   expectRefused(withChecksum(replaced(whole, "1024x4x3x2", "4096x409x4")), "sizes");
   desc = smallMoments();
   desc.moments.nodesR = desc.moments.nodesMuS = 10;
-  desc.moments.sourceTheta = desc.moments.sourcePhi = 10;
+  desc.moments.sourceGamma = desc.moments.sourcePsi = 10;
   std::string moments = bytesOf(makeTables(desc, false));
   const auto grown = [&](const std::string& setting) {
     moments = replaced(moments, setting + "10", setting + "99");
     return withChecksum(moments);
   };
-  for (const char* setting : {"nodesR=", "nodesMuS=", "sourceTheta="}) {
+  for (const char* setting : {"nodesR=", "nodesMuS=", "sourceGamma="}) {
     expectRefused(grown(setting), "shape");
   }
-  expectRefused(grown("sourcePhi="), "96059601 texels");
+  expectRefused(grown("sourcePsi="), "96059601 texels");
 }
 
 // Not all settings give a table its shape. Zeros before a number fill up the place of a setting

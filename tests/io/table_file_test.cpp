@@ -240,7 +240,7 @@ TEST(TableSizes, LimitsAreSentences) {
   desc.moments.viewPanels = 0;
   refused(desc, "viewPanels");
   desc = smallMoments();
-  desc.moments.sourceTheta = desc.moments.sourcePhi = 4096;
+  desc.moments.sourceGamma = desc.moments.sourcePsi = 4096;
   desc.moments.nodesR = 3;
   desc.moments.nodesMuS = 2;
   refused(desc, "100663296");
@@ -288,7 +288,7 @@ TEST(TableSettings, MomentSettingsGoBothWays) {
   const std::string all = momentSettingsText(smallMoments().moments);
   EXPECT_EQ(all,
             "depthMu=4,depthH=3,nodesR=2,nodesMuS=3,ringsSky=4,ringsLimb=2,ringsGround=3,"
-            "azimuths=5,degree=4,sourceTheta=3,sourcePhi=2,solverPanels=2,viewPanels=2");
+            "azimuths=5,degree=4,sourceGamma=3,sourcePsi=2,solverPanels=2,viewPanels=2");
   MomentSettings again;
   ASSERT_TRUE(parseMomentSettings(all, &again));
   EXPECT_EQ(momentSettingsText(again), all);

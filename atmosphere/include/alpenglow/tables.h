@@ -35,17 +35,19 @@ TableSizes defaultTableSizes();
 /// Resolution of the moment solver. 0 means what momentSettings() says.
 struct MomentSettings {
   uint32_t depthMu = 0, depthH = 0;   ///< Texels of the table of optical depths.
-  uint32_t nodesR = 0, nodesMuS = 0;  ///< Where the field is solved.
+  uint32_t nodesR = 0, nodesMuS = 0;  ///< Where the field is solved; each at least 3.
   uint32_t ringsSky = 0;              ///< Zenith angles of incoming light above the horizontal;
   uint32_t ringsLimb = 0;             ///< between it and the horizon;
   uint32_t ringsGround = 0;           ///< below the horizon.
   uint32_t azimuths = 0;              ///< Over half a turn.
   uint32_t degree = 0;                ///< Of the spherical harmonics, at most kMaxDegree.
-  uint32_t sourceTheta = 0, sourcePhi = 0;  ///< Directions of the table of sources.
+  uint32_t sourceGamma = 0, sourcePsi = 0;  ///< Directions of the table of sources.
   uint32_t solverPanels = 0;  ///< Panels of 2 points for each smooth stretch of a ray: of the bake,
   uint32_t viewPanels = 0;    ///< and of a ray that is looked along.
 };
 inline constexpr uint32_t kMaxDegree = 31;
+/// Texels across a layer of the table of moments: the nodes, and two between any two of them.
+constexpr uint32_t fieldTexels(uint32_t nodes) { return 3 * (nodes - 1) + 1; }
 
 /// Most orders of a bake: more than any air needs, few enough to number the passes.
 inline constexpr uint32_t kMaxOrders = 1000;

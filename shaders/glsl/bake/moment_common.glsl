@@ -20,6 +20,7 @@ layout(set = 0, binding = 5) uniform sampler2D momentsTable;
 layout(set = 0, binding = 6) uniform sampler2D sourceModesTable;
 layout(set = 0, binding = 7) uniform sampler2D ruleTable;
 layout(set = 0, binding = 8) uniform sampler2D legendreTable;
+layout(set = 0, binding = 8) uniform sampler2D rotationTable;
 
 Spectrum readDepth(vec2 uv) { return textureLod(depthTable, uv, 0.0).rgb; }
 Spectrum readMoments(vec2 uv) { return textureLod(fieldTable, uv, 0.0).rgb; }
@@ -33,13 +34,19 @@ Spectrum fetchModes(int x, int y) { return texelFetch(modesTable, ivec2(x, y), 0
 Spectrum fetchMoments(int x, int y) { return texelFetch(momentsTable, ivec2(x, y), 0).rgb; }
 Spectrum fetchSourceModes(int x, int y) { return texelFetch(sourceModesTable, ivec2(x, y), 0).rgb; }
 vec2 fetchRule(int x, int y) { return texelFetch(ruleTable, ivec2(x, y), 0).rg; }
+float fetchRotation(int x, int y) { return texelFetch(rotationTable, ivec2(x, y), 0).r; }
+Spectrum fetchNode(int x, int y) { return texelFetch(fieldTable, ivec2(x, y), 0).rgb; }
 float fetchLegendre(int x, int y) { return texelFetch(legendreTable, ivec2(x, y), 0).r; }
 
 #include "physics/field_lookup.glsl"
 
 #include "physics/path_light.glsl"
 
+#include "physics/harmonics.glsl"
+
 #include "physics/moments.glsl"
+
+#include "physics/node_interpolation.glsl"
 
 // The node of a texel whose x is the sun's angle and whose row is the altitude.
 int nodeOf(int iMuS, int iR) { return iMuS + int(shape.nodesMuS) * iR; }

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Pass "N sum": the field of all orders: those that were solved, and the geometric series that follows the
-// last of them. ALPENGLOW_NO_ORDER: none was solved, there is no light.
+// Pass "N sum": the field of all orders at each node: those that were solved, and the geometric series that
+// follows the last of them. ALPENGLOW_NO_ORDER: none was solved, and there is no light anywhere between.
 #include "moment_common.glsl"
 
 layout(set = 1, binding = 0, rgba32f) uniform writeonly image2D moments;
@@ -38,7 +38,7 @@ void main() {
   if (texel.z < 0) return;
   NodeField node = sumOfNode(texel.xy);
   for (int layer = 0; layer < int(momentLayers()); ++layer) {
-    imageStore(moments, texel.xy + ivec2(0, layer * int(shape.nodesR)),
+    imageStore(moments, texel.xy + ivec2(0, layer * int(height)),
                vec4(encodeLayer(node, layer), 0.0));
   }
 }

@@ -15,5 +15,5 @@ void main() {
   Spectrum light = sourceOfTexel(shape, texel.x, node);
   vec4 before = kFirstOrder ? vec4(0.0) : imageLoad(sum, texel);
   imageStore(sum, texel, before + vec4(light, 0.0));
-  imageStore(source, texel, vec4(light / sourceUnit(medium, shape, texel.x, node, mean), 0.0));
+  imageStore(source, texel, vec4(light / sourceNorm(shape, texel.x, mean), 0.0));
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Pass "H n": azimuthal modes of what aerosols scatter into each zenith angle, from the light of order n.
+// Pass "H n": azimuthal modes of what aerosols scatter into each angle from the sun, of the light of order n.
 #include "moment_common.glsl"
 
 layout(set = 1, binding = 0, rgba32f) uniform writeonly image2D sourceModes;

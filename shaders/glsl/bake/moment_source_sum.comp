@@ -17,14 +17,13 @@ layout(set = 0, binding = 5) uniform sampler2D lastTable;    // fields of the la
 layout(set = 0, binding = 6) uniform sampler2D beforeTable;
 
 Spectrum sumOfTexel(ivec3 texel) {
-  int node = nodeOf(texel.y, texel.z);
   Spectrum last = fetchLayer(lastTable, texel.yz, 0);
   Spectrum tail = tailFactor(shape, last, fetchLayer(beforeTable, texel.yz, 0));
   Spectrum light = texelFetch(sourceTable, texel, 0).rgb *
-                   sourceUnit(medium, shape, texel.x, node, max(last, SPECTRUM(darkness())));
+                   sourceNorm(shape, texel.x, max(last, SPECTRUM(darkness())));
   Spectrum total = exp(fetchLayer(fieldTable, texel.yz, 0));
   return (texelFetch(sumTable, texel, 0).rgb + light * tail) /
-         sourceUnit(medium, shape, texel.x, node, total);
+         sourceNorm(shape, texel.x, total);
 }
 
 #endif

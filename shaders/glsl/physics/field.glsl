@@ -9,10 +9,12 @@ struct MomentShape {
   Real depthSharpness;     // c: u_mu = asinh(c mu) / asinh(c)
   Real depthScale;         // a: u_h = asinh(h / a) / asinh(thickness / a), m
   Real nodesR, nodesMuS;   // nodes
+  Real fieldR, fieldMuS;   // texels of a layer of the table of moments: nodes, and between them
   Real nodePower;          // p: h = thickness u^p
   Real sunCenter, sunWidth;  // theta_s = center + width sinh(low + u range), radians
   Real sunLow, sunRange;
-  Real sourceTheta, sourcePhi;  // directions of the table of sources
+  Real sourceGamma, sourcePsi;  // directions of the table of sources
+  Real sourceSharpness;    // c: u_gamma = asinh(c gamma / pi) / asinh(c)
   Real peakAsymmetry;      // of the shape G(nu) that the sources are stored relative to
   Real peakShare;
   Real ringsSky, ringsLimb, ringsGround;  // of incoming light, see ringMu
@@ -85,13 +87,19 @@ ALPENGLOW_FN Real nodeMuS(IN(MomentShape) s, Real u) {
   return cos(clamp(theta, REAL(0.0), REAL(ALPENGLOW_PI)));
 }
 
-// Texture coordinate in the first layer of the table of moments; the next lie 1 / momentLayers() on.
-ALPENGLOW_FN Real2 nodeCoordinate(IN(Medium) m, IN(MomentShape) s, Real h, Real muS) {
-  return Real2(insetCoordinate(nodeUnitMuS(s, muS), s.nodesMuS),
-               insetCoordinate(nodeUnitR(m, s, h), s.nodesR) / momentLayers());
+ALPENGLOW_FN Real2 nodeUnit(IN(Medium) m, IN(MomentShape) s, Real h, Real muS) {
+  return Real2(nodeUnitMuS(s, muS), nodeUnitR(m, s, h));
 }
 
-// --- Sources: directions by zenith angle and azimuth from the sun, both uniform.
+// Texture coordinate in the first layer of the table of moments; the next lie 1 / momentLayers() on.
+ALPENGLOW_FN Real2 fieldCoordinate(IN(MomentShape) s, Real2 unit) {
+  return Real2(insetCoordinate(unit[0], s.fieldMuS),
+               insetCoordinate(unit[1], s.fieldR) / momentLayers());
+}
+
+// --- Sources: directions by the angle gamma from the sun (from the point opposite it, for aerosols that
+// scatter back) and the azimuth psi about it, 0 downwards. The peak about the sun stays where it is from node
+// to node, and gamma is constant along a ray.
 
 // A direction in the frame of a point: z up, the sun in the x z plane.
 ALPENGLOW_FN Real3 localDirection(Real mu, Real muS, Real nu) {
@@ -102,29 +110,50 @@ ALPENGLOW_FN Real3 localDirection(Real mu, Real muS, Real nu) {
   return Real3(x, sqrt(max(sine * sine - x * x, REAL(0.0))), mu);
 }
 
-// Texture coordinate in the slice of azimuth 0; y: the azimuth in slices.
-struct SourceCoordinate {
-  Real3 first;
-  Real slice;
-};
-
-ALPENGLOW_FN SourceCoordinate sourceCoordinate(IN(MomentShape) s, Real2 node, Real3 v) {
-  SourceCoordinate at;
-  Real sine = sqrt(max(REAL(1.0) - v[2] * v[2], REAL(0.0)));
-  Real uTheta = arcCosine(clamp(v[2], REAL(-1.0), REAL(1.0))) / REAL(ALPENGLOW_PI);
-  Real cosPhi = sine > REAL(1e-6) ? clamp(v[0] / sine, REAL(-1.0), REAL(1.0)) : REAL(1.0);
-  at.first = Real3(insetCoordinate(uTheta, s.sourceTheta) / s.sourcePhi, node[0],
-                   node[1] * momentLayers());
-  at.slice = arcCosine(cosPhi) / REAL(ALPENGLOW_PI) * (s.sourcePhi - REAL(1.0));
-  return at;
+ALPENGLOW_FN Real peakSide(IN(MomentShape) s) {
+  return s.peakAsymmetry < REAL(0.0) ? REAL(-1.0) : REAL(1.0);
 }
 
-// G(nu), mean 1 over the sphere: about the shape of what aerosols scatter near the sun. The ratio to it
-// is smooth enough for the table's 6 degrees; nu is constant along a ray, so it is taken once.
+ALPENGLOW_FN Real sourceNu(IN(MomentShape) s, Real u) {
+  Real gamma = sinh(u * asinh(s.sourceSharpness)) / s.sourceSharpness;
+  return peakSide(s) * cos(REAL(ALPENGLOW_PI) * min(gamma, REAL(1.0)));
+}
+
+// What is the same all along a ray.
+struct SourceRay {
+  Real nu;
+  Real sine;   // of gamma
+  Real x;      // texture coordinate of gamma at psi = 0
+  Real shape;  // G(nu)
+};
+
+// G(nu), mean 1 over the sphere: about the shape of what aerosols scatter near the sun. The table holds the
+// ratio to it, which is smoother.
 ALPENGLOW_FN Real sourceShape(IN(MomentShape) s, Real nu) {
   Real g = s.peakAsymmetry;
   Real d = (REAL(1.0) - abs(g)) * (REAL(1.0) - abs(g)) +
            REAL(2.0) * abs(g) * (REAL(1.0) - sign(g) * clamp(nu, REAL(-1.0), REAL(1.0)));
   return REAL(1.0) - s.peakShare +
          s.peakShare * (REAL(1.0) - abs(g)) * (REAL(1.0) + abs(g)) / (d * sqrt(d));
+}
+
+ALPENGLOW_FN SourceRay makeSourceRay(IN(MomentShape) s, Real nu) {
+  SourceRay ray;
+  Real cosine = clamp(nu, REAL(-1.0), REAL(1.0));
+  Real gamma = arcCosine(peakSide(s) * cosine) / REAL(ALPENGLOW_PI);
+  Real u = asinh(s.sourceSharpness * gamma) / asinh(s.sourceSharpness);
+  ray.nu = cosine;
+  ray.sine = sqrt((REAL(1.0) - cosine) * (REAL(1.0) + cosine));
+  ray.x = insetCoordinate(u, s.sourceGamma) / s.sourcePsi;
+  ray.shape = sourceShape(s, cosine);
+  return ray;
+}
+
+// psi in slices of the table. Towards the sun and away from it, and under a sun in the zenith, nothing
+// depends on it.
+ALPENGLOW_FN Real sourceSlice(IN(MomentShape) s, IN(SourceRay) ray, Real mu, Real muS) {
+  Real sineS = sqrt(max((REAL(1.0) - muS) * (REAL(1.0) + muS), REAL(0.0)));
+  Real cosine = (ray.nu * muS - mu) / max(ray.sine * sineS, REAL(1e-6));
+  return arcCosine(clamp(cosine, REAL(-1.0), REAL(1.0))) / REAL(ALPENGLOW_PI) *
+         (s.sourcePsi - REAL(1.0));
 }

@@ -29,15 +29,16 @@ ALPENGLOW_FN Spectrum readLayer(Real2 node, Real layer) {
 
 // E of the sky, equation 15, on a horizontal surface.
 ALPENGLOW_FN Spectrum fieldIrradiance(IN(Medium) m, IN(MomentShape) s, Real h, Real muS) {
-  return exp(readLayer(nodeCoordinate(m, s, h, muS), REAL(4.0)));
+  return exp(readLayer(fieldCoordinate(s, nodeUnit(m, s, h, muS)), REAL(4.0)));
 }
 
-// J of equation 7 at a point, into direction v with cosine nu to the sun; `shape` is sourceShape(nu).
-// Rayleigh's phase function is a quadratic form, so its integral is one of the second moments.
-ALPENGLOW_FN Spectrum fieldSource(IN(Medium) m, IN(MomentShape) s, Real h, Real mu, Real muS, Real nu,
-                                  Real shape) {
-  Real2 node = nodeCoordinate(m, s, h, muS);
-  Real3 v = localDirection(mu, muS, nu);
+// J of equation 7 at a point of a ray. Rayleigh's phase function is a quadratic form, so its integral is one
+// of the second moments.
+ALPENGLOW_FN Spectrum fieldSource(IN(Medium) m, IN(MomentShape) s, IN(SourceRay) ray, Real h, Real mu,
+                                  Real muS) {
+  Real2 unit = nodeUnit(m, s, h, muS);
+  Real2 node = fieldCoordinate(s, unit);
+  Real3 v = localDirection(mu, muS, ray.nu);
   Spectrum mean = exp(readLayer(node, REAL(0.0)));
   Spectrum xx = readLayer(node, REAL(1.0));
   Spectrum zz = readLayer(node, REAL(2.0));
@@ -45,11 +46,12 @@ ALPENGLOW_FN Spectrum fieldSource(IN(Medium) m, IN(MomentShape) s, Real h, Real 
   Spectrum one = SPECTRUM(REAL(1.0));
   Spectrum rayleigh = one + xx * (v[0] * v[0]) + (one - xx - zz) * (v[1] * v[1]) +
                       zz * (v[2] * v[2]) + xz * (REAL(2.0) * v[0] * v[2]);
-  SourceCoordinate at = sourceCoordinate(s, node, v);
-  Real lower = min(floor(at.slice), s.sourcePhi - REAL(2.0));
-  Real3 step = Real3(REAL(1.0) / s.sourcePhi, REAL(0.0), REAL(0.0));
-  Spectrum mie = mix(readSource(at.first + step * lower),
-                     readSource(at.first + step * (lower + REAL(1.0))), at.slice - lower);
+  Real slice = sourceSlice(s, ray, mu, muS);
+  Real lower = min(floor(slice), s.sourcePsi - REAL(2.0));
+  Real3 at = Real3(ray.x + lower / s.sourcePsi, insetCoordinate(unit[0], s.nodesMuS),
+                   insetCoordinate(unit[1], s.nodesR));
+  Real3 step = Real3(REAL(1.0) / s.sourcePsi, REAL(0.0), REAL(0.0));
+  Spectrum mie = mix(readSource(at), readSource(at + step), slice - lower);
   return mean * (m.rayleighScattering * (rayleighDensity(m, h) * REAL(0.75)) * rayleigh +
-                 m.mieScattering * (mieDensity(m, h) * shape) * mie);
+                 m.mieScattering * (mieDensity(m, h) * ray.shape) * mie);
 }

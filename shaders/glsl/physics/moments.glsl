@@ -1,11 +1,13 @@
 // The moment solver: what one texel of each of its tables holds. The angular integral of equation 7 is a
 // convolution, so it is diagonal in spherical harmonics: light that arrives at a node is integrated along
-// rays (L), taken apart into azimuthal modes (F) and harmonics (M), multiplied with the coefficients of the
-// aerosols' phase function, and put together again as the source of the next order (H, J). What molecules
-// scatter needs second moments only (N). The includer defines, besides the reads of field_lookup.glsl:
+// rays (L), taken apart into azimuthal modes (F) and harmonics (M), turned into the sun's frame (R),
+// multiplied with the coefficients of the aerosols' phase function, and put together again as the source of
+// the next order (H, J). What molecules scatter needs second moments only (N), which the next order reads from
+// a finer table (I). The includer defines, besides the reads of field_lookup.glsl:
 //   Spectrum fetchRadiance(int x, int y), fetchRadianceMie(...), fetchRadianceGround(...)   pass L
 //   Spectrum fetchModes(int x, int y), fetchMoments(int x, int y), fetchSourceModes(int x, int y)
-//   Real2 fetchRule(int x, int y); Real fetchLegendre(int x, int y)
+//   Spectrum fetchNode(int x, int y)                                                        pass I
+//   Real2 fetchRule(int x, int y); Real fetchLegendre(int x, int y), fetchRotation(int x, int y)
 // A node's index is i_mus + nodesMuS * i_r.
 
 // Single scattering is bright around the sun: order 1 takes twice the rings, and its phase functions at
@@ -245,69 +247,22 @@ ALPENGLOW_FN EightModes modesOfRing(IN(Medium) m, IN(MomentShape) s, int x, int 
   return sum;
 }
 
-// --- Pass Y: Legendre functions, such that Y_lm = legendre(l, m, mu) {1, m = 0; sqrt(2) cos(m phi)}
-// are orthonormal. x = l (l + 1) / 2 + m.
-
-ALPENGLOW_FN Real legendre(int l, int m, Real mu) {
-  Real sine = sqrt(max(REAL(1.0) - mu * mu, REAL(0.0)));
-  Real diagonal = REAL(0.28209479177387814);  // Y_00
-  for (int k = 1; k <= m; ++k) diagonal *= sqrt(REAL(1.0) + REAL(0.5) / Real(k)) * sine;
-  Real before = REAL(0.0);
-  Real now = diagonal;
-  for (int k = m + 1; k <= l; ++k) {
-    Real k2 = Real(k * k);
-    Real m2 = Real(m * m);
-    Real below = Real((k - 1) * (k - 1));
-    Real a = sqrt((REAL(4.0) * k2 - REAL(1.0)) / (k2 - m2));
-    Real b = sqrt((below - m2) / (REAL(4.0) * below - REAL(1.0)));
-    Real next = a * (mu * now - (k > m + 1 ? b * before : REAL(0.0)));
-    before = now;
-    now = next;
-  }
-  return now;
-}
-
-// Degree of the harmonic with index x; its mode is x - l (l + 1) / 2.
-ALPENGLOW_FN int degreeOf(int x) {
-  int l = int(REAL(0.5) * (sqrt(REAL(8.0) * Real(x) + REAL(1.0)) - REAL(1.0)));
-  // The root's rounding must not choose the neighbour.
-  l += (l + 1) * (l + 2) / 2 <= x ? 1 : 0;
-  return l - (l * (l + 1) / 2 > x ? 1 : 0);
-}
+// --- Pass Y: Legendre functions. x = l (l + 1) / 2 + m.
 
 // Rows of the table of Legendre functions: the rings of each altitude, those of order 1, and the
-// zenith angles of the sources. The functions are stored times what every sum over them has: the ring's
+// angles of the sources. The functions are stored times what every sum over them has: the ring's
 // weight, or the aerosols' coefficient.
 ALPENGLOW_FN int legendreRow(IN(MomentShape) s, int r, int ring, int fine) {
   int coarse = ringCount(s, 1) * int(s.nodesR);
   return fine == 1 ? r * ringCount(s, 1) + ring : coarse + r * ringCount(s, kFineRings) + ring;
 }
 
-ALPENGLOW_FN int legendreRowOfSource(IN(MomentShape) s, int theta) {
-  return ringCount(s, 1 + kFineRings) * int(s.nodesR) + theta;
+ALPENGLOW_FN int legendreRowOfSource(IN(MomentShape) s, int gamma) {
+  return ringCount(s, 1 + kFineRings) * int(s.nodesR) + gamma;
 }
 
-ALPENGLOW_FN Real sourceMu(IN(MomentShape) s, int theta) {
-  return cos(REAL(ALPENGLOW_PI) * unitFromTexel(Real(theta), s.sourceTheta));
-}
-
-// Coefficient l of Cornette-Shanks: 2 pi times the integral of P_M P_l. The phase function is
-// Henyey-Greenstein's times 3/2 (1 + nu^2) / (2 + g^2), and nu^2 mixes three neighbours of g^l.
-ALPENGLOW_FN Real mieCoefficient(Real g, int l) {
-  Real k = Real(l);
-  Real power = REAL(1.0);       // g^l
-  Real powerBelow = REAL(0.0);  // g^(l - 2)
-  for (int i = 0; i < l; ++i) {
-    powerBelow = i == l - 2 ? power : powerBelow;
-    power *= g;
-  }
-  Real up = (k + REAL(1.0)) * (k + REAL(2.0)) / ((REAL(2.0) * k + REAL(1.0)) * (REAL(2.0) * k + REAL(3.0)));
-  Real own = (k + REAL(1.0)) * (k + REAL(1.0)) / ((REAL(2.0) * k + REAL(1.0)) * (REAL(2.0) * k + REAL(3.0))) +
-             k * k / (REAL(4.0) * k * k - REAL(1.0));
-  Real down = k * (k - REAL(1.0)) / (REAL(4.0) * k * k - REAL(1.0));
-  // For l = 0 and 1 `down` is 0. up and down as P_k sees them: from P_{k+2} and P_{k-2}.
-  return REAL(1.5) / (REAL(2.0) + g * g) *
-         (power * (REAL(1.0) + own) + up * power * g * g + down * powerBelow);
+ALPENGLOW_FN Real nuOfSource(IN(MomentShape) s, int gamma) {
+  return sourceNu(s, unitFromTexel(Real(gamma), s.sourceGamma));
 }
 
 ALPENGLOW_FN Real legendreOfTexel(IN(Medium) m, IN(MomentShape) s, int x, int y) {
@@ -323,7 +278,7 @@ ALPENGLOW_FN Real legendreOfTexel(IN(Medium) m, IN(MomentShape) s, int x, int y)
   Real factor = mode == 0 ? REAL(1.0) : REAL(1.41421356237309505);
   Real mu;
   if (sourceRow >= 0) {
-    mu = sourceMu(s, sourceRow);
+    mu = nuOfSource(s, sourceRow);
     factor *= mieCoefficient(m.mieAsymmetry, l);
   } else {
     Real h = nodeH(m, s, unitFromTexel(Real(r), s.nodesR));
@@ -349,12 +304,35 @@ ALPENGLOW_FN Spectrum momentOfNode(IN(MomentShape) s, int x, int node, bool firs
   return sum;
 }
 
-// --- Pass H: mode m of what aerosols scatter into zenith angle theta. x = theta + thetas * m.
+// --- Pass W: the rotations of each sun angle. x = from + (l + 1) to, y = l + (degree + 1) i_mus.
+
+ALPENGLOW_FN Real rotationOfTexel(IN(MomentShape) s, int x, int y) {
+  int degrees = int(s.degree) + 1;
+  int node = y / degrees;
+  int l = y - node * degrees;
+  int to = min(x / (l + 1), l);
+  Real muS = nodeMuS(s, unitFromTexel(Real(node), s.nodesMuS));
+  return rotation(l, to, min(x - to * (l + 1), l), muS);
+}
+
+// --- Pass R: the same coefficients about the sun.
+
+ALPENGLOW_FN Spectrum turnedMoment(IN(MomentShape) s, int x, int node) {
+  int l = degreeOf(x);
+  int first = l * (l + 1) / 2;
+  int row = l + (int(s.degree) + 1) * (node % int(s.nodesMuS));
+  Spectrum sum = SPECTRUM(REAL(0.0));
+  for (int from = 0; from <= l; ++from)
+    sum += fetchMoments(first + from, node) * fetchRotation(from + (l + 1) * (x - first), row);
+  return sum;
+}
+
+// --- Pass H: mode m about the sun of what aerosols scatter into angle gamma. x = gamma + gammas * m.
 
 ALPENGLOW_FN Spectrum sourceModeOfNode(IN(MomentShape) s, int x, int node) {
-  int thetas = int(s.sourceTheta);
-  int mode = x / thetas;
-  int row = legendreRowOfSource(s, x - mode * thetas);
+  int gammas = int(s.sourceGamma);
+  int mode = x / gammas;
+  int row = legendreRowOfSource(s, x - mode * gammas);
   Spectrum sum = SPECTRUM(REAL(0.0));
   for (int l = mode; l <= int(s.degree); ++l) {
     int harmonic = l * (l + 1) / 2 + mode;
@@ -363,21 +341,21 @@ ALPENGLOW_FN Spectrum sourceModeOfNode(IN(MomentShape) s, int x, int node) {
   return sum;
 }
 
-// --- Pass J: what aerosols scatter, per beta_M. x = theta + thetas * phi, y = i_mus, z = i_r.
+// --- Pass J: what aerosols scatter, per beta_M. x = gamma + gammas * psi, y = i_mus, z = i_r.
 
 ALPENGLOW_FN Spectrum sourceOfTexel(IN(MomentShape) s, int x, int node) {
-  int thetas = int(s.sourceTheta);
-  int index = x / thetas;
+  int gammas = int(s.sourceGamma);
+  int index = x / gammas;
   int modes = int(s.degree) + 1;
-  int theta = x - index * thetas;
-  Real phi = REAL(ALPENGLOW_PI) * unitFromTexel(Real(index), s.sourcePhi);
-  // cos((m + 1) phi) = 2 cos(phi) cos(m phi) - cos((m - 1) phi).
-  Real twice = REAL(2.0) * cos(phi);
-  Real before = cos(phi);
+  int gamma = x - index * gammas;
+  Real psi = REAL(ALPENGLOW_PI) * unitFromTexel(Real(index), s.sourcePsi);
+  // cos((m + 1) psi) = 2 cos(psi) cos(m psi) - cos((m - 1) psi).
+  Real twice = REAL(2.0) * cos(psi);
+  Real before = cos(psi);
   Real now = REAL(1.0);
   Spectrum sum = SPECTRUM(REAL(0.0));
   for (int mode = 0; mode < modes; ++mode) {
-    sum += fetchSourceModes(theta + thetas * mode, node) * now;
+    sum += fetchSourceModes(gamma + gammas * mode, node) * now;
     Real next = twice * now - before;
     before = now;
     now = next;
@@ -386,14 +364,8 @@ ALPENGLOW_FN Spectrum sourceOfTexel(IN(MomentShape) s, int x, int node) {
 }
 
 // What the table of sources stores relative to: N G(nu) of the texel.
-ALPENGLOW_FN Spectrum sourceUnit(IN(Medium) m, IN(MomentShape) s, int x, int node, Spectrum mean) {
-  int thetas = int(s.sourceTheta);
-  int index = x / thetas;
-  Real phi = REAL(ALPENGLOW_PI) * unitFromTexel(Real(index), s.sourcePhi);
-  Real mu = sourceMu(s, x - index * thetas);
-  Real muS = nodePoint(m, s, node).muS;
-  Real spread = sqrt(max((REAL(1.0) - mu * mu) * (REAL(1.0) - muS * muS), REAL(0.0)));
-  return mean * sourceShape(s, clamp(mu * muS + spread * cos(phi), REAL(-1.0), REAL(1.0)));
+ALPENGLOW_FN Spectrum sourceNorm(IN(MomentShape) s, int x, Spectrum mean) {
+  return mean * sourceShape(s, nuOfSource(s, x % int(s.sourceGamma)));
 }
 
 // --- Pass N: mean radiance, second moments over it, and irradiance of a node.

@@ -10,8 +10,8 @@ struct PathLight {
 };
 
 // One node's share; `seen` is the transmittance to the observer times dt.
-ALPENGLOW_FN void addNode(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray, Real t, Real h, Real shape,
-                          Spectrum seen, bool single, bool multiple, OUT(Spectrum) rayleigh,
+ALPENGLOW_FN void addNode(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray, IN(SourceRay) source, Real t,
+                          Real h, Spectrum seen, bool single, bool multiple, OUT(Spectrum) rayleigh,
                           OUT(Spectrum) mie, OUT(Spectrum) scattered) {
   rayleigh = SPECTRUM(REAL(0.0));
   mie = SPECTRUM(REAL(0.0));
@@ -23,7 +23,7 @@ ALPENGLOW_FN void addNode(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray, Real t, 
     mie = light * mieDensity(m, h);
   }
   if (multiple)
-    scattered = seen * fieldSource(m, s, h, muAt(m, ray.h, ray.mu, t, h), muS, ray.nu, shape);
+    scattered = seen * fieldSource(m, s, source, h, muAt(m, ray.h, ray.mu, t, h), muS);
 }
 
 // Equation 11 over the first d metres of a ray: one event (`single`), and all that have been solved
@@ -47,7 +47,7 @@ ALPENGLOW_FN PathLight lightOfPath(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray,
   Real b1 = min(c1, c3);
   Real b2 = max(c1, min(c2, c3));
   Real b3 = max(c2, c3);
-  Real shape = sourceShape(s, ray.nu);
+  SourceRay source = makeSourceRay(s, ray.nu);
   Real start = REAL(0.0);
   Real du = REAL(1.0) / Real(panels);
   for (int piece = 0; piece < 4; ++piece) {
@@ -66,12 +66,12 @@ ALPENGLOW_FN PathLight lightOfPath(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray,
       Spectrum depthB = light.depth + (REAL(0.5) + kCross) * extinctionA + kNear * extinctionB;
       light.depth += REAL(0.5) * (extinctionA + extinctionB);
       Spectrum r, mi, mu;
-      addNode(m, s, ray, nodeA[0], hA, shape, exp(-depthA) * (REAL(0.5) * nodeA[1] * du), single,
+      addNode(m, s, ray, source, nodeA[0], hA, exp(-depthA) * (REAL(0.5) * nodeA[1] * du), single,
               multiple, r, mi, mu);
       light.rayleigh += r;
       light.mie += mi;
       light.multiple += mu;
-      addNode(m, s, ray, nodeB[0], hB, shape, exp(-depthB) * (REAL(0.5) * nodeB[1] * du), single,
+      addNode(m, s, ray, source, nodeB[0], hB, exp(-depthB) * (REAL(0.5) * nodeB[1] * du), single,
               multiple, r, mi, mu);
       light.rayleigh += r;
       light.mie += mi;

@@ -1,0 +1,50 @@
+// Pass "I n" of the moment solver: the table of moments between the nodes, by cubics, so that the sampler's
+// linear interpolation of it costs no accuracy. The includer defines
+//   Spectrum fetchNode(int x, int y)   a layer of a node, encoded
+
+// Slope at the second of three equally spaced values, by their distance: central, but limited so that a
+// cubic through them does not overshoot where light ends between two nodes.
+ALPENGLOW_FN Spectrum limitedSlope(Spectrum before, Spectrum here, Spectrum after) {
+  Spectrum a = here - before;
+  Spectrum b = after - here;
+  return REAL(0.5) * (sign(a) + sign(b)) *
+         min(abs(REAL(0.5) * (a + b)), REAL(3.0) * min(abs(a), abs(b)));
+}
+
+// Hermite's cubic between the two values in the middle.
+ALPENGLOW_FN Spectrum cubic(Spectrum before, Spectrum a, Spectrum b, Spectrum after, Real t) {
+  Spectrum slopeA = limitedSlope(before, a, b);
+  Spectrum slopeB = limitedSlope(a, b, after);
+  Spectrum rise = b - a;
+  return a + t * (slopeA + t * (REAL(3.0) * rise - REAL(2.0) * slopeA - slopeB +
+                                t * (slopeA + slopeB - REAL(2.0) * rise)));
+}
+
+// Along mu_s at altitude node y; beyond the ends a parabola goes on.
+ALPENGLOW_FN Spectrum cubicAlongMuS(int lower, int last, Real t, int y) {
+  Spectrum a = fetchNode(lower, y);
+  Spectrum b = fetchNode(lower + 1, y);
+  Spectrum before = fetchNode(max(lower - 1, 0), y);
+  Spectrum after = fetchNode(min(lower + 2, last), y);
+  before = lower > 0 ? before : REAL(3.0) * (a - b) + after;
+  after = lower + 1 < last ? after : REAL(3.0) * (b - a) + before;
+  return cubic(before, a, b, after, t);
+}
+
+// Texel (x, y) of one layer, whose first row of nodes is `first`.
+ALPENGLOW_FN Spectrum interpolatedNode(IN(MomentShape) s, int x, int y, int first) {
+  int lastX = int(s.nodesMuS) - 1;
+  int lastY = int(s.nodesR) - 1;
+  Real atX = Real(x) / (s.fieldMuS - REAL(1.0)) * Real(lastX);
+  Real atY = Real(y) / (s.fieldR - REAL(1.0)) * Real(lastY);
+  int lowerX = min(int(atX), lastX - 1);
+  int lowerY = min(int(atY), lastY - 1);
+  Real t = atX - Real(lowerX);
+  Spectrum a = cubicAlongMuS(lowerX, lastX, t, first + lowerY);
+  Spectrum b = cubicAlongMuS(lowerX, lastX, t, first + lowerY + 1);
+  Spectrum before = cubicAlongMuS(lowerX, lastX, t, first + max(lowerY - 1, 0));
+  Spectrum after = cubicAlongMuS(lowerX, lastX, t, first + min(lowerY + 2, lastY));
+  before = lowerY > 0 ? before : REAL(3.0) * (a - b) + after;
+  after = lowerY + 1 < lastY ? after : REAL(3.0) * (b - a) + before;
+  return cubic(before, a, b, after, atY - Real(lowerY));
+}
