@@ -10,11 +10,11 @@ namespace {
 
 // Draft ... Ultra. In the order of MomentSettings: depthMu, depthH; nodesR, nodesMuS; ringsSky,
 // ringsLimb, ringsGround; azimuths, degree; sourceGamma, sourcePsi; solverPanels, viewPanels.
-constexpr MomentSettings kLevels[] = {{128, 64, 8, 24, 8, 4, 4, 8, 8, 24, 8, 3, 5},
-                                      {192, 96, 12, 32, 10, 5, 6, 10, 10, 24, 12, 4, 6},
-                                      {256, 128, 16, 48, 14, 6, 8, 14, 14, 32, 16, 5, 8},
-                                      {256, 128, 20, 64, 18, 8, 10, 18, 18, 40, 20, 6, 10},
-                                      {384, 192, 24, 96, 24, 10, 14, 24, 24, 48, 24, 8, 14}};
+constexpr MomentSettings kLevels[] = {{128, 64, 8, 24, 8, 4, 4, 8, 8, 20, 10, 3, 5},
+                                      {192, 96, 12, 36, 10, 5, 6, 10, 10, 28, 16, 4, 7},
+                                      {256, 128, 16, 56, 14, 6, 8, 14, 14, 40, 24, 5, 10},
+                                      {384, 192, 20, 80, 18, 8, 10, 18, 18, 48, 32, 6, 12},
+                                      {512, 256, 28, 112, 24, 10, 14, 24, 24, 64, 40, 8, 16}};
 
 // Zenith optical depth of all that scatters, in the channel where it is greatest.
 double scatteringDepth(const Parameters& p) {
@@ -29,27 +29,42 @@ double scatteringDepth(const Parameters& p) {
 }
 
 // Six classes of air by how often light is scattered in it.
+constexpr double kDepthLimits[] = {0.35, 0.7, 1.5, 4.0, 12.0};
+/// Orders that are solved one by one.
+constexpr uint32_t kOrders[] = {5, 10, 12, 18, 26, 32};
+
 uint32_t depthClass(const Parameters& p) {
-  constexpr double kLimits[] = {0.5, 1.0, 2.0, 5.0, 15.0};
   uint32_t result = 0;
-  for (double limit : kLimits) result += scatteringDepth(p) > limit ? 1 : 0;
+  for (double limit : kDepthLimits) result += scatteringDepth(p) > limit ? 1 : 0;
   return result;
 }
 
 // Four classes by how narrow the aerosols' forward peak is.
-uint32_t peakClass(const Parameters& p) {
-  constexpr double kLimits[] = {0.8, 0.88, 0.95};
-  uint32_t result = 0;
-  for (double limit : kLimits) result += p.mie.present && std::abs(p.mie.asymmetry) > limit ? 1 : 0;
-  return result;
+struct PeakClass {
+  double asymmetry;                                  ///< Up to this.
+  uint32_t degree, azimuths, ringsSky, sourceGamma;  ///< Added to the level's.
+  uint32_t nodesMuSQuarters;                         ///< Times the level's, over 4.
+  double taper;                                      ///< MomentShape::taper.
+};
+constexpr PeakClass kPeakClasses[] = {{0.80, 0, 0, 0, 0, 4, 0.0},
+                                      {0.88, 6, 6, 2, 16, 6, 0.0},
+                                      {0.95, 24, 24, 12, 32, 6, 3.0},
+                                      {1.00, 33, 33, 16, 64, 6, 3.0}};
+
+const PeakClass& peakClass(const Parameters& p) {
+  const double asymmetry = p.mie.present ? std::abs(p.mie.asymmetry) : 0.0;
+  const PeakClass* result = kPeakClasses;
+  while (asymmetry > result->asymmetry) ++result;
+  return *result;
 }
 
 }  // namespace
 
 uint32_t solvedOrders(const Parameters& parameters, const TableDesc& desc) {
-  constexpr uint32_t kOrders[] = {5, 7, 10, 16, 24, 32};
   return desc.orders != 0 ? desc.orders : kOrders[depthClass(parameters)];
 }
+
+double degreeTaper(const Parameters& parameters) { return peakClass(parameters).taper; }
 
 }  // namespace bake
 
@@ -61,11 +76,15 @@ MomentSettings momentSettings(const Parameters& parameters, Quality quality,
   const uint32_t level = quality == Quality::Default ? static_cast<uint32_t>(Quality::Medium)
                                                      : static_cast<uint32_t>(quality);
   MomentSettings result = bake::kLevels[std::min(level, last) - 1];
-  const uint32_t peak = bake::peakClass(parameters), depth = bake::depthClass(parameters);
-  result.degree = std::min(result.degree + 6 * peak, kMaxDegree);
-  result.azimuths += 6 * peak;
+  const bake::PeakClass& peak = bake::peakClass(parameters);
+  const uint32_t depth = bake::depthClass(parameters);
+  result.degree = std::min(result.degree + peak.degree, kMaxDegree);
+  result.azimuths += peak.azimuths;
+  result.ringsSky += peak.ringsSky;
+  result.sourceGamma += peak.sourceGamma;
+  result.nodesMuS = result.nodesMuS * peak.nodesMuSQuarters / 4;
   result.solverPanels += 2 * depth;
-  result.viewPanels += 3 * depth;
+  result.viewPanels += 2 * depth;
   const uint32_t* given = &custom.depthMu;
   uint32_t* out = &result.depthMu;
   for (size_t i = 0; i < sizeof(MomentSettings) / sizeof(uint32_t); ++i)

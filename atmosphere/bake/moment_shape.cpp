@@ -17,9 +17,7 @@ void shapeDepths(const physics_f64::Medium& medium, Shape* s) {
   const double least = std::min(medium.rayleighScaleHeight, medium.mieScaleHeight);
   const double most = std::max(medium.rayleighScaleHeight, medium.mieScaleHeight);
   s->depthSharpness = std::max(2.0, std::sqrt(medium.bottomRadius / least));
-  s->depthScale = std::min(medium.thickness, std::sqrt(least * most));
-  // The second of 16 nodes at a quarter of the least scale height.
-  s->nodePower = std::clamp(std::log(medium.thickness / (0.25 * least)) / std::log(15.0), 1.2, 4.0);
+  s->heightScale = std::min(medium.thickness, std::sqrt(least * most));
 }
 
 // Nodes of the sun's zenith angle: densest where the top of the air passes into the planet's
@@ -62,6 +60,7 @@ physics_f64::MomentShape makeMomentShapeF64(const Parameters& parameters, const 
   s.ringsGround = c.ringsGround;
   s.azimuths = c.azimuths;
   s.degree = c.degree;
+  s.taper = degreeTaper(parameters);
   s.solverPanels = c.solverPanels;
   s.viewPanels = c.viewPanels;
   s.tail = desc.orders == 0 ? 1.0 : 0.0;

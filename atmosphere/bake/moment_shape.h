@@ -17,4 +17,7 @@ physics_f32::MomentShape makeMomentShapeF32(const Parameters& parameters, const 
 /// air needs before the rest is a geometric series.
 uint32_t solvedOrders(const Parameters& parameters, const TableDesc& desc);
 
+/// How strongly the highest degrees of the harmonics are damped: MomentShape::taper.
+double degreeTaper(const Parameters& parameters);
+
 }  // namespace alpenglow::bake

@@ -14,7 +14,7 @@ void main() {
   float u = scatteringUnitMu(medium, ray.h, ray.mu, ray.hitsGround);
   result[0] = vec4(depth, u);
   MomentShape shape;
-  shape.sunWidth = shape.sunRange = shape.depthScale = shape.depthSharpness = 1.0;
+  shape.sunWidth = shape.sunRange = shape.heightScale = shape.depthSharpness = 1.0;
   Piece piece = makePiece(medium, ray, 0.0, ray.extent);
   SliceView view = SliceView(1.5, 1.6);
   result[2] = vec4(depthCoordinate(medium, shape, ray.h, ray.mu), pieceNode(piece, 0.5));

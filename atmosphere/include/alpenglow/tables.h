@@ -45,7 +45,7 @@ struct MomentSettings {
   uint32_t solverPanels = 0;  ///< Panels of 2 points for each smooth stretch of a ray: of the bake,
   uint32_t viewPanels = 0;    ///< and of a ray that is looked along.
 };
-inline constexpr uint32_t kMaxDegree = 31;
+inline constexpr uint32_t kMaxDegree = 47;
 /// Texels across a layer of the table of moments: the nodes, and two between any two of them.
 constexpr uint32_t fieldTexels(uint32_t nodes) { return 3 * (nodes - 1) + 1; }
 

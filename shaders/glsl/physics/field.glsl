@@ -7,10 +7,9 @@
 struct MomentShape {
   Real depthMu, depthH;    // texels of the table of optical depths
   Real depthSharpness;     // c: u_mu = asinh(c mu) / asinh(c)
-  Real depthScale;         // a: u_h = asinh(h / a) / asinh(thickness / a), m
+  Real heightScale;        // a: of the altitudes of both tables, see depthUnit and nodeUnitR, m
   Real nodesR, nodesMuS;   // nodes
   Real fieldR, fieldMuS;   // texels of a layer of the table of moments: nodes, and between them
-  Real nodePower;          // p: h = thickness u^p
   Real sunCenter, sunWidth;  // theta_s = center + width sinh(low + u range), radians
   Real sunLow, sunRange;
   Real sourceGamma, sourcePsi;  // directions of the table of sources
@@ -20,6 +19,7 @@ struct MomentShape {
   Real ringsSky, ringsLimb, ringsGround;  // of incoming light, see ringMu
   Real azimuths;
   Real degree;             // of the spherical harmonics
+  Real taper;              // of the highest ones, where a narrow peak would ring
   Real solverPanels, viewPanels;
   Real tail;               // 1: the orders that are not solved follow as a geometric series
 };
@@ -44,11 +44,11 @@ ALPENGLOW_FN Real arcCosine(Real x) {
 
 ALPENGLOW_FN Real2 depthUnit(IN(Medium) m, IN(MomentShape) s, Real h, Real mu) {
   return Real2(asinh(s.depthSharpness * mu) / asinh(s.depthSharpness),
-               asinh(h / s.depthScale) / asinh(m.thickness / s.depthScale));
+               asinh(h / s.heightScale) / asinh(m.thickness / s.heightScale));
 }
 
 ALPENGLOW_FN Real2 depthHMu(IN(Medium) m, IN(MomentShape) s, Real2 u) {
-  return Real2(min(s.depthScale * sinh(u[1] * asinh(m.thickness / s.depthScale)), m.thickness),
+  return Real2(min(s.heightScale * sinh(u[1] * asinh(m.thickness / s.heightScale)), m.thickness),
                min(sinh(u[0] * asinh(s.depthSharpness)) / s.depthSharpness, REAL(1.0)));
 }
 
@@ -67,12 +67,15 @@ ALPENGLOW_FN Real momentLayers() { return REAL(5.0); }
 // under a starlit night (per unit solar irradiance).
 ALPENGLOW_FN Real darkness() { return REAL(1e-30); }
 
+// As the square root of the altitude near the ground, as the horizon sinks, and as its logarithm above.
 ALPENGLOW_FN Real nodeUnitR(IN(Medium) m, IN(MomentShape) s, Real h) {
-  return pow(clamp(h / m.thickness, REAL(0.0), REAL(1.0)), REAL(1.0) / s.nodePower);
+  return min(asinh(sqrt(max(h, REAL(0.0)) / s.heightScale)) / asinh(sqrt(m.thickness / s.heightScale)),
+             REAL(1.0));
 }
 
 ALPENGLOW_FN Real nodeH(IN(Medium) m, IN(MomentShape) s, Real u) {
-  return m.thickness * pow(u, s.nodePower);
+  Real root = sinh(u * asinh(sqrt(m.thickness / s.heightScale)));
+  return min(s.heightScale * root * root, m.thickness);
 }
 
 // Densest around the terminator, where the field falls by orders of magnitude.

@@ -279,7 +279,8 @@ ALPENGLOW_FN Real legendreOfTexel(IN(Medium) m, IN(MomentShape) s, int x, int y)
   Real mu;
   if (sourceRow >= 0) {
     mu = nuOfSource(s, sourceRow);
-    factor *= mieCoefficient(m.mieAsymmetry, l);
+    Real share = Real(l) / (s.degree + REAL(1.0));
+    factor *= mieCoefficient(m.mieAsymmetry, l) * exp(-s.taper * share * share * share * share);
   } else {
     Real h = nodeH(m, s, unitFromTexel(Real(r), s.nodesR));
     Ring cone = makeRing(m, s, h, ring, isFine ? kFineRings : 1, fetchRule(ring, isFine ? 1 : 0));
