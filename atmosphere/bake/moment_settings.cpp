@@ -10,11 +10,11 @@ namespace {
 
 // Draft ... Ultra. In the order of MomentSettings: depthMu, depthH; nodesR, nodesMuS; ringsSky,
 // ringsLimb, ringsGround; azimuths, degree; sourceGamma, sourcePsi; solverPanels, viewPanels.
-constexpr MomentSettings kLevels[] = {{128, 64, 8, 24, 8, 4, 4, 8, 8, 20, 10, 3, 5},
-                                      {192, 96, 12, 36, 10, 5, 6, 10, 10, 28, 16, 4, 7},
-                                      {256, 128, 16, 56, 14, 6, 8, 14, 14, 40, 24, 5, 10},
-                                      {384, 192, 20, 80, 18, 8, 10, 18, 18, 48, 32, 6, 12},
-                                      {512, 256, 28, 112, 24, 10, 14, 24, 24, 64, 40, 8, 16}};
+constexpr MomentSettings kLevels[] = {{128, 64, 10, 28, 8, 4, 5, 8, 8, 24, 12, 4, 4},
+                                      {192, 96, 12, 40, 10, 5, 6, 10, 10, 32, 16, 4, 5},
+                                      {256, 128, 18, 60, 14, 6, 8, 14, 14, 40, 24, 5, 6},
+                                      {384, 192, 22, 84, 18, 8, 10, 18, 18, 56, 32, 6, 8},
+                                      {512, 256, 28, 112, 24, 10, 14, 24, 24, 64, 40, 8, 12}};
 
 // Zenith optical depth of all that scatters, in the channel where it is greatest.
 double scatteringDepth(const Parameters& p) {
@@ -84,7 +84,7 @@ MomentSettings momentSettings(const Parameters& parameters, Quality quality,
   result.sourceGamma += peak.sourceGamma;
   result.nodesMuS = result.nodesMuS * peak.nodesMuSQuarters / 4;
   result.solverPanels += 2 * depth;
-  result.viewPanels += 2 * depth;
+  result.viewPanels += depth;
   const uint32_t* given = &custom.depthMu;
   uint32_t* out = &result.depthMu;
   for (size_t i = 0; i < sizeof(MomentSettings) / sizeof(uint32_t); ++i)

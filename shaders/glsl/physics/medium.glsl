@@ -34,6 +34,20 @@ ALPENGLOW_FN Real absorptionDensity(IN(Medium) m, Real h) {
   return max(REAL(0.0), REAL(1.0) - abs(h - m.absorptionCenter) / m.absorptionHalfWidth);
 }
 
+// The same averaged over the altitudes between two: so that a quadrature need not stop at its bends.
+ALPENGLOW_FN Real absorptionColumn(IN(Medium) m, Real h) {
+  Real x = clamp((h - m.absorptionCenter) / m.absorptionHalfWidth, REAL(-1.0), REAL(1.0));
+  return m.absorptionHalfWidth * (REAL(0.5) + x - REAL(0.5) * x * abs(x));
+}
+
+ALPENGLOW_FN Real meanAbsorptionDensity(IN(Medium) m, Real h0, Real h1) {
+  Real rise = h1 - h0;
+  // Closer than this the difference has no digits left, and a bend between makes none either.
+  bool close = abs(rise) < REAL(4e-3) * m.absorptionHalfWidth;
+  Real slope = (absorptionColumn(m, h1) - absorptionColumn(m, h0)) / (close ? REAL(1.0) : rise);
+  return close ? absorptionDensity(m, REAL(0.5) * (h0 + h1)) : slope;
+}
+
 // R[L], equation 10: light that a Lambertian ground sends up under these irradiances of a horizontal
 // surface; equation 14 with n = n-bar.
 ALPENGLOW_FN Spectrum reflectedRadiance(Spectrum albedo, Spectrum direct, Spectrum sky) {

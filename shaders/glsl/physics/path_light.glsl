@@ -54,17 +54,29 @@ ALPENGLOW_FN PathLight lightOfPath(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray,
     if (start >= d) break;
     Real end = start < b1 ? b1 : start < b2 ? b2 : start < b3 ? b3 : d;
     Piece p = makePiece(m, ray, start, end);
+    Real t = start;
+    Real h = min(altitudeAt(m, ray.h, ray.mu, start), m.thickness);
     for (int i = 0; i < panels; ++i) {
       Real2 nodeA = pieceNode(p, (Real(i) + kFirst) * du);
       Real2 nodeB = pieceNode(p, (Real(i) + REAL(1.0) - kFirst) * du);
+      Real next = pieceNode(p, Real(i + 1) * du)[0];
       Real hA = min(altitudeAt(m, ray.h, ray.mu, nodeA[0]), m.thickness);
       Real hB = min(altitudeAt(m, ray.h, ray.mu, nodeB[0]), m.thickness);
-      Spectrum extinctionA = extinction(m, hA) * (nodeA[1] * du);
-      Spectrum extinctionB = extinction(m, hB) * (nodeB[1] * du);
+      Real hNext = min(altitudeAt(m, ray.h, ray.mu, next), m.thickness);
+      Spectrum extinctionA = exponentialExtinction(m, hA) * (nodeA[1] * du);
+      Spectrum extinctionB = exponentialExtinction(m, hB) * (nodeB[1] * du);
+      // Metres of the tent's full density up to either node and to the next panel.
+      Real tentA = meanAbsorptionDensity(m, h, hA) * (nodeA[0] - t);
+      Real tentB = tentA + meanAbsorptionDensity(m, hA, hB) * (nodeB[0] - nodeA[0]);
+      Real tent = tentB + meanAbsorptionDensity(m, hB, hNext) * (next - nodeB[0]);
       Spectrum depthA =
-          max(light.depth + kNear * extinctionA - kCross * extinctionB, light.depth);
-      Spectrum depthB = light.depth + (REAL(0.5) + kCross) * extinctionA + kNear * extinctionB;
-      light.depth += REAL(0.5) * (extinctionA + extinctionB);
+          max(light.depth + kNear * extinctionA - kCross * extinctionB, light.depth) +
+          m.absorptionExtinction * tentA;
+      Spectrum depthB = light.depth + (REAL(0.5) + kCross) * extinctionA + kNear * extinctionB +
+                        m.absorptionExtinction * tentB;
+      light.depth += REAL(0.5) * (extinctionA + extinctionB) + m.absorptionExtinction * tent;
+      t = next;
+      h = hNext;
       Spectrum r, mi, mu;
       addNode(m, s, ray, source, nodeA[0], hA, exp(-depthA) * (REAL(0.5) * nodeA[1] * du), single,
               multiple, r, mi, mu);
