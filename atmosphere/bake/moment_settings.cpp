@@ -48,8 +48,8 @@ struct PeakClass {
 };
 constexpr PeakClass kPeakClasses[] = {{0.80, 0, 0, 0, 0, 4, 0.0},
                                       {0.88, 6, 6, 2, 16, 6, 0.0},
-                                      {0.95, 24, 24, 12, 32, 6, 3.0},
-                                      {1.00, 33, 33, 16, 64, 6, 3.0}};
+                                      {0.95, 33, 18, 12, 32, 6, 4.0},
+                                      {1.00, 33, 18, 16, 56, 6, 4.0}};
 
 const PeakClass& peakClass(const Parameters& p) {
   const double asymmetry = p.mie.present ? std::abs(p.mie.asymmetry) : 0.0;
@@ -83,7 +83,7 @@ MomentSettings momentSettings(const Parameters& parameters, Quality quality,
   result.ringsSky += peak.ringsSky;
   result.sourceGamma += peak.sourceGamma;
   result.nodesMuS = result.nodesMuS * peak.nodesMuSQuarters / 4;
-  result.solverPanels += 2 * depth;
+  result.solverPanels += depth;
   result.viewPanels += depth;
   const uint32_t* given = &custom.depthMu;
   uint32_t* out = &result.depthMu;
