@@ -70,7 +70,7 @@ Status checkCombination(const engine::Device& device, const TableDesc& desc) {
 Status checkSettings(const engine::Device& device, const MomentSettings& s, bool zeroIsDefault) {
   const Size sizes[] = {
       {"depthMu", s.depthMu, 2, 4096},        {"depthH", s.depthH, 2, 4096},
-      {"nodesR", s.nodesR, 3, 256},           {"nodesMuS", s.nodesMuS, 3, 512},
+      {"nodesR", s.nodesR, 2, 256},           {"nodesMuS", s.nodesMuS, 2, 512},
       {"ringsSky", s.ringsSky, 2, 256},       {"ringsLimb", s.ringsLimb, 2, 256},
       {"ringsGround", s.ringsGround, 2, 256}, {"azimuths", s.azimuths, 2, 128},
       {"degree", s.degree, 2, kMaxDegree},    {"sourceGamma", s.sourceGamma, 2, 256},

@@ -2,6 +2,8 @@
 // tables of the next order must be.
 #pragma once
 
+#include <utility>
+
 #include "tests/bake/cpu_table.h"
 
 namespace alpenglow::moments_f64 {
@@ -16,8 +18,8 @@ using testing::DoubleTable;
 #define SPECTRUM(value) Spectrum(value)
 #define REAL(literal) static_cast<double>(literal)
 
-/// One order at a time: set `depth`, and from order 2 on `field` and `source` of the order before;
-/// then solve().
+/// One order at a time: set `depth_`, and from order 2 on `source_` of the order before and its
+/// field by setNodes(); then solve().
 class Solver {
  public:
   DoubleTable depth_, field_, source_;
@@ -29,9 +31,21 @@ class Solver {
     });
     fill(&legendre_, harmonics(), legendreRowOfSource(shape, 0) + int(shape.sourceGamma),
          [&](int x, int y) { return Spectrum(legendreOfTexel(medium, shape, x, y)); });
+    const int degrees = int(shape.degree) + 1;
+    fill(&rotations_, degrees * degrees, degrees * int(shape.nodesMuS),
+         [&](int x, int y) { return Spectrum(rotationOfTexel(shape, x, y)); });
   }
 
-  /// Passes L, F, M and H.
+  /// Pass I: the field between the nodes, from the layers of the nodes below each other.
+  void setNodes(const DoubleTable& nodes) {
+    nodes_ = nodes;
+    const int rows = int(shape_.fieldR);
+    fill(&field_, int(shape_.fieldMuS), rows * int(momentLayers()), [&](int x, int y) {
+      return interpolatedNode(shape_, x, y % rows, y / rows * int(shape_.nodesR));
+    });
+  }
+
+  /// Passes L, F, M, R and H.
   void solve(bool first);
 
   Spectrum readDepth(Real2 u) const { return Spectrum(depth_.sample(u[0], u[1], 0.5)); }
@@ -45,16 +59,21 @@ class Solver {
   Spectrum fetchSourceModes(int x, int y) { return fetch(&sourceModes_, x, y); }
   Real2 fetchRule(int x, int y) { return Real2(fetch(&rules_, x, y)); }
   Real fetchLegendre(int x, int y) { return fetch(&legendre_, x, y)[0]; }
+  Real fetchRotation(int x, int y) { return fetch(&rotations_, x, y)[0]; }
+  Spectrum fetchNode(int x, int y) { return fetch(&nodes_, x, y); }
 
 #include "shaders/glsl/physics/field_lookup.glsl"
 #include "shaders/glsl/physics/path_light.glsl"
-// After the two that it needs.
+// After those that it needs.
+#include "shaders/glsl/physics/harmonics.glsl"
+//
 #include "shaders/glsl/physics/moments.glsl"
+#include "shaders/glsl/physics/node_interpolation.glsl"
 
   NodeField field(int node, bool first) { return fieldOfNode(medium_, shape_, node, first); }
   /// Texel x of a node, over `unit` (see sourceUnit).
   Spectrum source(int x, int node, Spectrum mean) {
-    return sourceOfTexel(shape_, x, node) / sourceUnit(medium_, shape_, x, node, mean);
+    return sourceOfTexel(shape_, x, node) / sourceNorm(shape_, x, mean);
   }
 
  private:
@@ -99,7 +118,7 @@ class Solver {
 
   Medium medium_;
   MomentShape shape_;
-  DoubleTable rules_, legendre_, light_[3], modes_, moments_, sourceModes_;
+  DoubleTable rules_, legendre_, rotations_, nodes_, light_[3], modes_, moments_, sourceModes_;
 };
 
 inline void Solver::solve(bool first) {
@@ -113,8 +132,12 @@ inline void Solver::solve(bool first) {
   makeModes(first, nodes);
   fill(&moments_, harmonics(), nodes,
        [&](int x, int y) { return momentOfNode(shape_, x, y, first); });
+  DoubleTable turned;
+  fill(&turned, harmonics(), nodes, [&](int x, int y) { return turnedMoment(shape_, x, y); });
+  const DoubleTable aboutZenith = std::exchange(moments_, turned);
   fill(&sourceModes_, (int(shape_.degree) + 1) * int(shape_.sourceGamma), nodes,
        [&](int x, int y) { return sourceModeOfNode(shape_, x, y); });
+  moments_ = aboutZenith;
 }
 
 #undef IN

@@ -60,8 +60,8 @@ TEST_F(TableErrorsTest, WhatBelongsToTheOtherSolverIsRefused) {
 
 TEST_F(TableErrorsTest, WrongMomentSettingsAreRefusedByName) {
   TableDesc desc;
-  desc.moments.degree = 32;
-  expectRefused(desc, "degree is 32, but must be from 2 to 31");
+  desc.moments.degree = 48;
+  expectRefused(desc, "degree is 48, but must be from 2 to 47");
   desc.moments = {};
   desc.moments.depthMu = 5000;
   expectRefused(desc, "depthMu is 5000");

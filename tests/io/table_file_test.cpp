@@ -294,7 +294,7 @@ TEST(TableSettings, MomentSettingsGoBothWays) {
   EXPECT_EQ(momentSettingsText(again), all);
   for (const char* bad :
        {"", ",", "nodesR", "nodesR=", "nodesR=16,", "nodesR=1", "nodesR=4097", "nodesR=-2",
-        "nodesR=2.5", "nodesR=99999999999999999999", "nodesr=4", "nodes=4", "degree=32",
+        "nodesR=2.5", "nodesR=99999999999999999999", "nodesr=4", "nodes=4", "degree=48",
         "nodesR=4,nodesR=4", "nodesR=4 degree=4", "nodesR=4,,degree=4", " nodesR=4", "=4"}) {
     expectSentence(parseMomentSettings(bad, &settings).error);
   }

@@ -35,7 +35,7 @@ TableSizes defaultTableSizes();
 /// Resolution of the moment solver. 0 means what momentSettings() says.
 struct MomentSettings {
   uint32_t depthMu = 0, depthH = 0;   ///< Texels of the table of optical depths.
-  uint32_t nodesR = 0, nodesMuS = 0;  ///< Where the field is solved; each at least 3.
+  uint32_t nodesR = 0, nodesMuS = 0;  ///< Where the field is solved.
   uint32_t ringsSky = 0;              ///< Zenith angles of incoming light above the horizontal;
   uint32_t ringsLimb = 0;             ///< between it and the horizon;
   uint32_t ringsGround = 0;           ///< below the horizon.

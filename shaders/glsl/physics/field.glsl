@@ -67,15 +67,19 @@ ALPENGLOW_FN Real momentLayers() { return REAL(5.0); }
 // under a starlit night (per unit solar irradiance).
 ALPENGLOW_FN Real darkness() { return REAL(1e-30); }
 
+// The highest node: a bit below the top, where the light from above has gone to nothing, and its logarithm
+// with it.
+ALPENGLOW_FN Real highestNode(IN(Medium) m) { return m.thickness * REAL(0.99609375); }
+
 // As the square root of the altitude near the ground, as the horizon sinks, and as its logarithm above.
 ALPENGLOW_FN Real nodeUnitR(IN(Medium) m, IN(MomentShape) s, Real h) {
-  return min(asinh(sqrt(max(h, REAL(0.0)) / s.heightScale)) / asinh(sqrt(m.thickness / s.heightScale)),
-             REAL(1.0));
+  Real most = asinh(sqrt(highestNode(m) / s.heightScale));
+  return min(asinh(sqrt(max(h, REAL(0.0)) / s.heightScale)) / most, REAL(1.0));
 }
 
 ALPENGLOW_FN Real nodeH(IN(Medium) m, IN(MomentShape) s, Real u) {
-  Real root = sinh(u * asinh(sqrt(m.thickness / s.heightScale)));
-  return min(s.heightScale * root * root, m.thickness);
+  Real root = sinh(u * asinh(sqrt(highestNode(m) / s.heightScale)));
+  return s.heightScale * root * root;
 }
 
 // Densest around the terminator, where the field falls by orders of magnitude.

@@ -35,16 +35,16 @@ ALPENGLOW_FN Spectrum cubicAlongMuS(int lower, int last, Real t, int y) {
 ALPENGLOW_FN Spectrum interpolatedNode(IN(MomentShape) s, int x, int y, int first) {
   int lastX = int(s.nodesMuS) - 1;
   int lastY = int(s.nodesR) - 1;
-  Real atX = Real(x) / (s.fieldMuS - REAL(1.0)) * Real(lastX);
-  Real atY = Real(y) / (s.fieldR - REAL(1.0)) * Real(lastY);
-  int lowerX = min(int(atX), lastX - 1);
-  int lowerY = min(int(atY), lastY - 1);
-  Real t = atX - Real(lowerX);
+  int stepX = (int(s.fieldMuS) - 1) / lastX;
+  int stepY = (int(s.fieldR) - 1) / lastY;
+  int lowerX = min(x / stepX, lastX - 1);
+  int lowerY = min(y / stepY, lastY - 1);
+  Real t = Real(x - lowerX * stepX) / Real(stepX);
   Spectrum a = cubicAlongMuS(lowerX, lastX, t, first + lowerY);
   Spectrum b = cubicAlongMuS(lowerX, lastX, t, first + lowerY + 1);
   Spectrum before = cubicAlongMuS(lowerX, lastX, t, first + max(lowerY - 1, 0));
   Spectrum after = cubicAlongMuS(lowerX, lastX, t, first + min(lowerY + 2, lastY));
   before = lowerY > 0 ? before : REAL(3.0) * (a - b) + after;
   after = lowerY + 1 < lastY ? after : REAL(3.0) * (b - a) + before;
-  return cubic(before, a, b, after, atY - Real(lowerY));
+  return cubic(before, a, b, after, Real(y - lowerY * stepY) / Real(stepY));
 }
