@@ -16,13 +16,20 @@ constexpr MomentSettings kLevels[] = {{128, 64, 10, 28, 8, 4, 5, 8, 8, 24, 12, 4
                                       {384, 192, 22, 84, 18, 8, 10, 18, 18, 56, 32, 6, 8},
                                       {512, 256, 28, 112, 24, 10, 14, 24, 24, 64, 40, 8, 12}};
 
-// Zenith optical depth of all that scatters, in the channel where it is greatest.
-double scatteringDepth(const Parameters& p) {
+// Zenith optical depth of what scatters, in the channel where it is greatest.
+double depthOfMolecules(const Parameters& p) {
   double most = 0.0;
-  for (uint32_t i = 0; i < kSpectrumSize; ++i) {
+  for (uint32_t i = 0; i < kSpectrumSize && p.rayleigh.present; ++i)
+    most = std::max(most, p.rayleigh.scattering_per_m[i] * p.rayleigh.scaleHeight_m);
+  return most;
+}
+
+double scatteringDepth(const Parameters& p) {
+  double most = depthOfMolecules(p);
+  for (uint32_t i = 0; i < kSpectrumSize && p.mie.present; ++i) {
+    const double aerosols = p.mie.scattering_per_m[i] * p.mie.scaleHeight_m;
     const double molecules =
         p.rayleigh.present ? p.rayleigh.scattering_per_m[i] * p.rayleigh.scaleHeight_m : 0.0;
-    const double aerosols = p.mie.present ? p.mie.scattering_per_m[i] * p.mie.scaleHeight_m : 0.0;
     most = std::max(most, molecules + aerosols);
   }
   return most;
@@ -47,12 +54,15 @@ struct PeakClass {
   double taper;                                      ///< MomentShape::taper.
 };
 constexpr PeakClass kPeakClasses[] = {{0.80, 0, 0, 0, 0, 4, 0.0},
-                                      {0.88, 6, 6, 2, 16, 6, 0.0},
+                                      {0.88, 8, 6, 2, 16, 6, 0.0},
                                       {0.95, 33, 18, 12, 32, 6, 4.0},
                                       {1.00, 33, 18, 16, 56, 6, 4.0}};
 
 const PeakClass& peakClass(const Parameters& p) {
-  const double asymmetry = p.mie.present ? std::abs(p.mie.asymmetry) : 0.0;
+  double asymmetry = p.mie.present ? std::abs(p.mie.asymmetry) : 0.0;
+  // Without molecules nothing veils the little that is scattered back, where a series that is cut
+  // short rings.
+  if (depthOfMolecules(p) < 0.1 * scatteringDepth(p)) asymmetry = std::cbrt(asymmetry * asymmetry);
   const PeakClass* result = kPeakClasses;
   while (asymmetry > result->asymmetry) ++result;
   return *result;
