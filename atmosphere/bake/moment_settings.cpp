@@ -46,17 +46,18 @@ uint32_t depthClass(const Parameters& p) {
   return result;
 }
 
-// Four classes by how narrow the aerosols' forward peak is.
+// Four classes by how narrow the aerosols' forward peak is. What its finer directions take, coarser
+// azimuths of the sources give back: default tables stay below 12 MB.
 struct PeakClass {
-  double asymmetry;                                  ///< Up to this.
-  uint32_t degree, azimuths, ringsSky, sourceGamma;  ///< Added to the level's.
-  uint32_t nodesMuSQuarters;                         ///< Times the level's, over 4.
-  double taper;                                      ///< MomentShape::taper.
+  double asymmetry;                                            ///< Up to this.
+  uint32_t degree, azimuths, ringsSky, sourceGamma, nodesMuS;  ///< Added to the level's.
+  uint32_t sourcePsiSixths;                                    ///< Times the level's, over 6.
+  double taper;                                                ///< MomentShape::taper.
 };
-constexpr PeakClass kPeakClasses[] = {{0.80, 0, 0, 0, 0, 4, 0.0},
-                                      {0.88, 8, 6, 2, 16, 6, 0.0},
-                                      {0.95, 33, 18, 12, 32, 6, 4.0},
-                                      {1.00, 33, 18, 16, 56, 6, 4.0}};
+constexpr PeakClass kPeakClasses[] = {{0.80, 0, 0, 0, 0, 0, 6, 0.0},
+                                      {0.88, 8, 6, 2, 12, 8, 5, 0.0},
+                                      {0.95, 33, 18, 12, 16, 4, 5, 4.0},
+                                      {1.00, 33, 18, 16, 16, 4, 5, 4.0}};
 
 const PeakClass& peakClass(const Parameters& p) {
   double asymmetry = p.mie.present ? std::abs(p.mie.asymmetry) : 0.0;
@@ -92,7 +93,8 @@ MomentSettings momentSettings(const Parameters& parameters, Quality quality,
   result.azimuths += peak.azimuths;
   result.ringsSky += peak.ringsSky;
   result.sourceGamma += peak.sourceGamma;
-  result.nodesMuS = result.nodesMuS * peak.nodesMuSQuarters / 4;
+  result.nodesMuS += peak.nodesMuS;
+  result.sourcePsi = result.sourcePsi * peak.sourcePsiSixths / 6;
   result.solverPanels += depth;
   result.viewPanels += depth;
   const uint32_t* given = &custom.depthMu;
