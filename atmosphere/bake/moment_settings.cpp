@@ -69,6 +69,16 @@ const PeakClass& peakClass(const Parameters& p) {
   return *result;
 }
 
+// Panels more for air that is thin in a high shell: one for each doubling beyond 64 scale heights.
+uint32_t stretchPanels(const Parameters& p) {
+  double least = p.topRadius_m - p.bottomRadius_m;
+  const double thickness = least;
+  if (p.rayleigh.present) least = std::min(least, p.rayleigh.scaleHeight_m);
+  if (p.mie.present) least = std::min(least, p.mie.scaleHeight_m);
+  const double doublings = std::log2(thickness / (64.0 * least));
+  return static_cast<uint32_t>(std::ceil(std::clamp(doublings, 0.0, 24.0)));
+}
+
 }  // namespace
 
 uint32_t solvedOrders(const Parameters& parameters, const TableDesc& desc) {
@@ -88,15 +98,15 @@ MomentSettings momentSettings(const Parameters& parameters, Quality quality,
                                                      : static_cast<uint32_t>(quality);
   MomentSettings result = bake::kLevels[std::min(level, last) - 1];
   const bake::PeakClass& peak = bake::peakClass(parameters);
-  const uint32_t depth = bake::depthClass(parameters);
+  const uint32_t panels = bake::depthClass(parameters) + bake::stretchPanels(parameters);
   result.degree = std::min(result.degree + peak.degree, kMaxDegree);
   result.azimuths += peak.azimuths;
   result.ringsSky += peak.ringsSky;
   result.sourceGamma += peak.sourceGamma;
   result.nodesMuS += peak.nodesMuS;
   result.sourcePsi = result.sourcePsi * peak.sourcePsiSixths / 6;
-  result.solverPanels += depth;
-  result.viewPanels += depth;
+  result.solverPanels += panels;
+  result.viewPanels += panels;
   const uint32_t* given = &custom.depthMu;
   uint32_t* out = &result.depthMu;
   for (size_t i = 0; i < sizeof(MomentSettings) / sizeof(uint32_t); ++i)

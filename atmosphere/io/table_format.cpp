@@ -47,6 +47,12 @@ TablePart momentsPart(const TableDesc& desc, const std::string& name) {
   return {name, fieldTexels(m.nodesMuS), fieldTexels(m.nodesR) * kMomentLayers, 1, desc.format, {}};
 }
 
+// Of a single order: the nodes alone.
+TablePart orderMomentsPart(const TableDesc& desc, const std::string& name) {
+  const MomentSettings& m = desc.moments;
+  return {name, m.nodesMuS, m.nodesR * kMomentLayers, 1, desc.format, {}};
+}
+
 TablePart sourcePart(const TableDesc& desc, const std::string& name) {
   const MomentSettings& m = desc.moments;
   return {name, m.sourceGamma * m.sourcePsi, m.nodesMuS, m.nodesR, desc.format, {}};
@@ -113,7 +119,7 @@ std::optional<TablePart> partOfOrder(const TableDesc& desc, const std::string& n
   if (desc.solver == Solver::Moments) {
     // The light of an order is solved for the source of the next. The last one's isn't needed.
     const bool last = order == desc.orders;
-    if (name == "moments" + suffix && !last) return momentsPart(desc, name);
+    if (name == "moments" + suffix && !last) return orderMomentsPart(desc, name);
     if (name == "source" + suffix && order > 1) return sourcePart(desc, name);
     return std::nullopt;
   }

@@ -20,7 +20,7 @@ enum class Solver : uint32_t {
   Moments,   ///< Discrete ordinates on (r, mu_s) nodes; tables of the source, rays are integrated.
   Standard,  ///< The paper's Algorithm 4.1; tables of rays.
 };
-/// Points of the moment solver's curve of error against cost; docs/accuracy.md has what is measured.
+/// Points of the moment solver's curve of error against cost: docs/accuracy.md has both, measured.
 enum class Quality : uint32_t { Default, Draft, Low, Medium, High, Ultra };  ///< Default: Medium.
 
 /// Texels of each table. 0 means the paper's: T 256x64 (mu x r), E 64x16 (mu_s x r) and

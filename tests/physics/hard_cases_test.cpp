@@ -1,0 +1,252 @@
+// The hard cases of rays: single scattering and transmittance in float, as the GPU computes them,
+// against the same text in double and against the adaptive quadrature. docs/stability.md has the
+// figures that these tests print.
+#include <algorithm>
+#include <cstdio>
+#include <numbers>
+
+#include "atmosphere/reference/single_scattering.h"
+#include "direct_light.h"
+#include "physics_overloads.h"
+
+namespace alpenglow::test {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+ProbeQuery query(double altitude_m, double viewZenith_deg, double sunZenith_deg,
+                 double azimuth_deg) {
+  ProbeQuery result;
+  result.altitude_m = altitude_m;
+  result.viewZenith = viewZenith_deg * kDegree;
+  result.sunZenith = sunZenith_deg * kDegree;
+  result.azimuth = azimuth_deg * kDegree;
+  return result;
+}
+
+/// Greatest errors of a hard case. Light is relative to itself, or to a millionth of the sun's
+/// irradiance; transmittance to itself, or to a thousandth.
+struct Errors {
+  double rounding = 0.0;       ///< Of light, float against double.
+  double quadrature = 0.0;     ///< Of light, double against the reference.
+  double transmittance = 0.0;  ///< Float against double.
+
+  void print(const char* name) const {
+    std::printf("%-34s float %8.4f %%  quadrature %8.4f %%  T %.5f %%\n", name, 100 * rounding,
+                100 * quadrature, 100 * transmittance);
+  }
+};
+
+double relative(double value, double exact, double least) {
+  const double error = std::abs(value - exact) / std::max(std::abs(exact), least);
+  return std::isfinite(error) ? error : 1e30;  // A NaN is the worst of all.
+}
+
+class HardCase {
+ public:
+  explicit HardCase(const Parameters& parameters) : lights_(parameters) {}
+
+  const physics_f64::Medium& medium() const { return lights_.medium; }
+
+  /// The ray of a query, and against the reference.
+  void add(const ProbeQuery& query) {
+    const ResolvedQuery resolved = resolveQuery(lights_.medium, query);
+    if (resolved.empty) return;
+    const light_f64::Spectrum sky = add(bothRays(resolved.ray, resolved.length));
+    const ReferenceAnswer truth =
+        reference::singleScattering(lights_.medium, query, reference::kRelativeTolerance);
+    for (int c = 0; c < 3; ++c)
+      errors.quadrature = std::max(
+          errors.quadrature,
+          relative(sky[c], truth.value.skyRadiance[static_cast<uint32_t>(c)], kLeastLight));
+  }
+
+  /// Float against double; the double's radiance is returned.
+  light_f64::Spectrum add(const BothRays& ray) {
+    const auto length = static_cast<float>(ray.length);
+    const light_f64::DirectLight::Light exact = lights_.inDouble.along(ray.exact, ray.length);
+    const light_f32::DirectLight::Light light = lights_.inFloat.along(ray.rounded, length);
+    const light_f64::Spectrum wanted = lights_.inDouble.radiance(exact, ray.exact.nu);
+    const light_f32::Spectrum got = lights_.inFloat.radiance(light, ray.rounded.nu);
+    for (int c = 0; c < 3; ++c) {
+      EXPECT_GE(got[c], 0.0f);
+      EXPECT_GE(light.transmittance[c], 0.0f);
+      EXPECT_LE(light.transmittance[c], 1.0f);
+      errors.rounding = std::max(errors.rounding, relative(got[c], wanted[c], kLeastLight));
+      errors.transmittance = std::max(
+          errors.transmittance, relative(light.transmittance[c], exact.transmittance[c], 1e-3));
+    }
+    return wanted;
+  }
+
+  Errors errors;
+
+ private:
+  static constexpr double kLeastLight = 1e-6;
+  BothLights lights_;
+};
+
+/// Per cent.
+void expectBelow(const HardCase& hard, const char* name, double rounding, double quadrature,
+                 double transmittance) {
+  hard.errors.print(name);
+  EXPECT_LE(100 * hard.errors.rounding, rounding) << name;
+  EXPECT_LE(100 * hard.errors.quadrature, quadrature) << name;
+  EXPECT_LE(100 * hard.errors.transmittance, transmittance) << name;
+}
+
+double horizonZenith(const physics_f64::Medium& m, double h) {
+  return std::acos(physics_f64::horizonMu(m, h)) / kDegree;
+}
+
+constexpr double kSuns[] = {0, 30, 75, 85, 89, 90, 91, 95, 100, 108};
+constexpr double kHeights[] = {0.1, 2.0, 1e3, 1e4, 59.9e3};
+
+TEST(HardCases, GrazingRays) {
+  for (const char* name : {"earth", "earth-hazy", "mars"}) {
+    HardCase hard(preset(name));
+    for (double h : kHeights)
+      for (double off : {-0.05, -0.005, 0.0, 0.005, 0.05})
+        for (double sun : kSuns)
+          for (double azimuth : {0.0, 90.0, 180.0})
+            hard.add(query(h, horizonZenith(hard.medium(), h) - off, sun, azimuth));
+    expectBelow(hard, (std::string("grazing rays, ") + name).c_str(), 1e-3, 1.5, 2e-3);
+  }
+}
+
+TEST(HardCases, TheGroundAndTheTopAndAFloatStepBesideThem) {
+  HardCase hard(preset("earth"));
+  const auto thickness = static_cast<float>(hard.medium().thickness);
+  for (float h : {0.0f, std::nextafter(0.0f, 1.0f), 1e-30f, 1e-3f, std::nextafter(thickness, 0.0f),
+                  thickness, std::nextafter(thickness, 1e9f)})
+    for (double view : {0.0, 60.0, 89.999, 90.0, 90.001, 97.0, 120.0, 180.0})
+      for (double sun : kSuns) hard.add(query(h, view, sun, 30.0));
+  expectBelow(hard, "r at Rg, Rt and a step beside", 1e-3, 0.8, 1e-3);
+}
+
+TEST(HardCases, CosinesOfOne) {
+  HardCase hard(preset("earth"));
+  for (double h : {0.0, 2.0, 1e4, 6e4, 4e5, 3.6e7})
+    for (double view : {0.0, 180.0})
+      for (double sun : {0.0, 1e-5, 90.0, 180.0}) hard.add(query(h, view, sun, 0.0));
+  expectBelow(hard, "mu, mu_s, nu at +-1", 1e-3, 0.6, 1e-4);
+}
+
+TEST(HardCases, ViewAtTheSunAndOpposite) {
+  for (const char* name : {"earth", "earth-hazy"}) {
+    HardCase hard(preset(name));
+    for (double h : {0.0, 2.0, 1e4, 59.9e3})
+      // At the horizon a ray away from the sun lies in the shadow's edge with all its length.
+      for (double sun : {0.0, 30.0, 85.0, 89.9, 90.01, 91.0})
+        for (double off : {0.0, 1e-6, 1e-3, 0.1}) {
+          hard.add(query(h, sun + off, sun, 0.0));
+          hard.add(query(h, 180.0 - sun - off, sun, 180.0));
+        }
+    expectBelow(hard, (std::string("at the sun and opposite, ") + name).c_str(), 0.02, 0.5, 1e-3);
+  }
+}
+
+TEST(HardCases, SunAtTheTerminator) {
+  HardCase hard(preset("earth"));
+  for (double h : kHeights) {
+    const double edge = horizonZenith(hard.medium(), h);
+    for (double off : {-1e-3, -1e-6, 0.0, 1e-6, 1e-3})
+      for (double view : {0.0, 80.0, 89.0, 93.0})
+        for (double azimuth : {0.0, 90.0, 180.0}) hard.add(query(h, view, edge + off, azimuth));
+  }
+  expectBelow(hard, "sun at the terminator", 0.05, 2, 1e-3);
+}
+
+/// Rays in all directions from some heights, in units of the thickness.
+void addAllAround(HardCase* hard) {
+  const double thickness = hard->medium().thickness;
+  for (double share : {0.0, 1e-4, 0.1, 0.9, 20.0}) {
+    const double horizon = horizonZenith(hard->medium(), share * thickness);
+    for (double view : {0.0, 70.0, horizon - 0.05, horizon + 0.05, 170.0, 180.0})
+      for (double sun : {0.0, 60.0, 89.0, 93.0})
+        for (double azimuth : {0.0, 120.0}) hard->add(query(share * thickness, view, sun, azimuth));
+  }
+}
+
+void expectAllAround(const Parameters& parameters, const char* name, double rounding,
+                     double quadrature, double transmittance) {
+  HardCase hard(parameters);
+  addAllAround(&hard);
+  expectBelow(hard, name, rounding, quadrature, transmittance);
+}
+
+TEST(HardCases, NarrowPeaks) {
+  for (double g : {0.99, -0.99}) {
+    Parameters p = preset("earth");
+    p.mie.asymmetry = g;
+    HardCase hard(p);
+    addAllAround(&hard);
+    for (double off : {0.0, 0.01, 0.3, 3.0}) {
+      hard.add(query(2.0, 60.0 + off, 60.0, 0.0));
+      hard.add(query(2.0, 180.0 - 91.0 - off, 91.0, 180.0));
+    }
+    expectBelow(hard, g > 0 ? "g = 0.99" : "g = -0.99", 0.07, 0.8, 1e-3);
+  }
+}
+
+TEST(HardCases, ScaleHeights) {
+  for (double height : {100.0, 50e3}) {
+    Parameters p = preset("earth");
+    p.rayleigh.scaleHeight_m = p.mie.scaleHeight_m = height;
+    // The same columns as before.
+    const double molecules = std::min(8000.0 / height, 80.0), aerosols = 1200.0 / height;
+    for (uint32_t i = 0; i < kSpectrumSize; ++i) {
+      p.rayleigh.scattering_per_m[i] *= molecules;
+      p.mie.scattering_per_m[i] *= aerosols;
+      p.mie.extinction_per_m[i] *= aerosols;
+    }
+    if (height < 1e3) {
+      expectAllAround(p, "scale heights of 100 m", 0.01, 8, 0.03);
+    } else {
+      expectAllAround(p, "scale heights of 50 km", 1e-3, 0.7, 1e-3);
+    }
+  }
+}
+
+TEST(HardCases, OpticalDepths) {
+  for (double depth : {0.0, 1e-6, 50.0}) {
+    Parameters p = preset("earth-fig6");
+    p.mie.present = depth > 0.0;
+    p.rayleigh.present = depth > 0.0;
+    for (uint32_t i = 0; i < kSpectrumSize; ++i) {
+      p.rayleigh.scattering_per_m[i] = 0.5 * depth / p.rayleigh.scaleHeight_m;
+      p.mie.scattering_per_m[i] = 0.45 * depth / p.mie.scaleHeight_m;
+      p.mie.extinction_per_m[i] = 0.5 * depth / p.mie.scaleHeight_m;
+    }
+    char name[64];
+    std::snprintf(name, sizeof name, "optical depth %g", depth);
+    expectAllAround(p, name, 2e-3, depth > 1.0 ? 14 : 0.01, 1e-3);
+  }
+}
+
+TEST(HardCases, Planets) {
+  for (double radius : {10e3, 1e8}) {
+    Parameters p = earthOfRadius(radius);
+    if (radius < 1e6) {
+      expectAllAround(p, "planet of 10 km", 1e-3, 0.03, 1e-3);
+    } else {
+      expectAllAround(p, "planet of 100,000 km", 2e-3, 4, 2e-3);
+    }
+  }
+  // Its air as thin as its size.
+  Parameters p = preset("earth");
+  p.bottomRadius_m = 10e3;
+  p.topRadius_m = 10.1e3;
+  p.rayleigh.scaleHeight_m = 13.0;
+  p.mie.scaleHeight_m = 2.0;
+  p.absorption.present = false;
+  for (uint32_t i = 0; i < kSpectrumSize; ++i) {
+    p.rayleigh.scattering_per_m[i] *= 600.0;
+    p.mie.scattering_per_m[i] *= 600.0;
+    p.mie.extinction_per_m[i] *= 600.0;
+  }
+  expectAllAround(p, "planet of 10 km, air of 100 m", 1e-3, 0.2, 2e-3);
+}
+
+}  // namespace
+}  // namespace alpenglow::test
