@@ -40,7 +40,10 @@ inline io::TableFile makeTables(const TableDesc& desc, bool orders) {
     const std::string suffix = "_order_" + std::to_string(order);
     if (desc.solver == Solver::Moments) {
       if (order > 1) add("source" + suffix, expected[2]);
-      if (order < count) add("moments" + suffix, expected[1]);
+      io::TablePart nodes = expected[1];
+      nodes.width = desc.moments.nodesMuS;
+      nodes.height = 5 * desc.moments.nodesR;
+      if (order < count) add("moments" + suffix, nodes);
       continue;
     }
     add("scattering" + suffix, expected[2]);

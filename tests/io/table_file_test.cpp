@@ -89,9 +89,8 @@ TEST(TableFile, PartsOfTheMomentSolverHaveTheShapesOfItsTables) {
     EXPECT_EQ(part->depth, depth) << name;
   };
   expectShape("optical_depth", 4, 3, 1);  // mu, h
-  for (const char* name : {"moments", "moments_order_1", "moments_order_2"}) {
-    expectShape(name, 3, 10, 1);  // mu_s, 5 layers of r
-  }
+  expectShape("moments", 7, 20, 1);  // mu_s, 5 layers of r: 3 x 2 nodes, two texels between them
+  for (const char* name : {"moments_order_1", "moments_order_2"}) expectShape(name, 3, 10, 1);
   for (const char* name : {"source", "source_order_2", "source_order_3"}) {
     expectShape(name, 6, 3, 2);  // theta x phi, mu_s, r
   }
@@ -245,7 +244,7 @@ TEST(TableSizes, LimitsAreSentences) {
   desc.moments.nodesMuS = 2;
   refused(desc, "100663296");
   desc.moments.nodesR = desc.moments.nodesMuS = 4096;
-  refused(desc, "83886080");
+  refused(desc, std::to_string(12286 * 12286 * 5));
 }
 
 TEST(TableSettings, DefaultsFollowSolverAndQuality) {
