@@ -69,14 +69,14 @@ const PeakClass& peakClass(const Parameters& p) {
   return *result;
 }
 
-// Panels more for air that is thin in a high shell: one for each doubling beyond 64 scale heights.
+// Panels more for air that is thin in a high shell: two for each doubling beyond 64 scale heights.
 uint32_t stretchPanels(const Parameters& p) {
   double least = p.topRadius_m - p.bottomRadius_m;
   const double thickness = least;
   if (p.rayleigh.present) least = std::min(least, p.rayleigh.scaleHeight_m);
   if (p.mie.present) least = std::min(least, p.mie.scaleHeight_m);
   const double doublings = std::log2(thickness / (64.0 * least));
-  return static_cast<uint32_t>(std::ceil(std::clamp(doublings, 0.0, 24.0)));
+  return static_cast<uint32_t>(std::ceil(2.0 * std::clamp(doublings, 0.0, 12.0)));
 }
 
 }  // namespace

@@ -201,7 +201,7 @@ TEST(HardCases, ScaleHeights) {
       p.mie.extinction_per_m[i] *= aerosols;
     }
     if (height < 1e3) {
-      expectAllAround(p, "scale heights of 100 m", 0.01, 8, 0.03);
+      expectAllAround(p, "scale heights of 100 m", 0.01, 3, 0.03);
     } else {
       expectAllAround(p, "scale heights of 50 km", 1e-3, 0.7, 1e-3);
     }

@@ -104,12 +104,13 @@ enum class TableId : uint32_t {
   OpticalDepth,  ///< ln(1 + 1e5 tau), T = exp(-tau) towards the top: x mu, y r. Either solver.
   Moments,       ///< Mean radiance, its second moments and E, five tables below each other: x mu_s,
                  ///< y r (shaders/glsl/physics/field.glsl). Moments; the next as well.
-  Source,        ///< Light that aerosols scatter, as a ratio: x theta + thetas phi, y mu_s, z r.
+  Source,        ///< Light that aerosols scatter, as a ratio, into angle gamma from the sun and
+                 ///< azimuth psi about it: x gamma + gammas psi, y mu_s, z r, at the nodes.
   Irradiance,    ///< E of the sky on the ground, per unit solar irradiance: x mu_s, y r. Standard;
                  ///< the next two as well.
   Scattering,    ///< S: C_* = S_R[L0] + S[L_*] / P_R, alpha C_M first channel if packed.
   SingleMie,     ///< C_M = S_M[L0] / P_M; only with MieStorage::Full.
-  OrderMoments,  ///< Moments of the order just finished. Moments.
+  OrderMoments,  ///< Moments of the order just finished, at the nodes alone. Moments.
   OrderSource,   ///< Source of the order after the one just finished. Moments.
   OrderIrradiance,  ///< dE of the order just finished (order 1: the sun's direct light).
   OrderScattering,  ///< dS of the order just finished (order 1: Rayleigh, without phase).

@@ -26,6 +26,15 @@ ALPENGLOW_FN void addNode(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray, IN(Sourc
     scattered = seen * fieldSource(m, s, source, h, muAt(m, ray.h, ray.mu, t, h), muS);
 }
 
+// A beam loses T(start) - T(end) in a panel, and no more than that can be scattered out of it. Where a panel
+// is thick its two points may add up to more, `quadrature`: the ratio holds their weights to what there is.
+ALPENGLOW_FN Spectrum panelLimit(Spectrum start, Spectrum end, Spectrum depth, Spectrum quadrature) {
+  Spectrum ratio = min((start - end) / max(quadrature, SPECTRUM(REAL(1e-30))), SPECTRUM(REAL(1.0)));
+  // The difference has digits enough in thick panels only; in others the points are exact.
+  Spectrum thick = clamp(depth - SPECTRUM(REAL(2.0)), REAL(0.0), REAL(1.0));
+  return mix(SPECTRUM(REAL(1.0)), ratio, thick);
+}
+
 // Equation 11 over the first d metres of a ray: one event (`single`), and all that have been solved
 // (`multiple`), both literals; panels: of two points, for each piece.
 ALPENGLOW_FN PathLight lightOfPath(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray, Real d, int panels,
@@ -56,6 +65,7 @@ ALPENGLOW_FN PathLight lightOfPath(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray,
     Piece p = makePiece(m, ray, start, end);
     Real t = start;
     Real h = min(altitudeAt(m, ray.h, ray.mu, start), m.thickness);
+    Spectrum seen = exp(-light.depth);
     for (int i = 0; i < panels; ++i) {
       Real2 nodeA = pieceNode(p, (Real(i) + kFirst) * du);
       Real2 nodeB = pieceNode(p, (Real(i) + REAL(1.0) - kFirst) * du);
@@ -74,17 +84,26 @@ ALPENGLOW_FN PathLight lightOfPath(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray,
           m.absorptionExtinction * tentA;
       Spectrum depthB = light.depth + (REAL(0.5) + kCross) * extinctionA + kNear * extinctionB +
                         m.absorptionExtinction * tentB;
-      light.depth += REAL(0.5) * (extinctionA + extinctionB) + m.absorptionExtinction * tent;
+      Spectrum depth =
+          REAL(0.5) * (extinctionA + extinctionB) + m.absorptionExtinction * tent;
+      light.depth += depth;
+      Spectrum seenA = exp(-depthA);
+      Spectrum seenB = exp(-depthB);
+      Spectrum seenNext = exp(-light.depth);
+      Spectrum loss = seenA * extinctionA + seenB * extinctionB +
+                      (seenA + seenB) * m.absorptionExtinction * tent;
+      Spectrum weight = REAL(0.5) * panelLimit(seen, seenNext, depth, REAL(0.5) * loss);
       t = next;
       h = hNext;
+      seen = seenNext;
       Spectrum r, mi, mu;
-      addNode(m, s, ray, source, nodeA[0], hA, exp(-depthA) * (REAL(0.5) * nodeA[1] * du), single,
-              multiple, r, mi, mu);
+      addNode(m, s, ray, source, nodeA[0], hA, seenA * weight * (nodeA[1] * du), single, multiple, r,
+              mi, mu);
       light.rayleigh += r;
       light.mie += mi;
       light.multiple += mu;
-      addNode(m, s, ray, source, nodeB[0], hB, exp(-depthB) * (REAL(0.5) * nodeB[1] * du), single,
-              multiple, r, mi, mu);
+      addNode(m, s, ray, source, nodeB[0], hB, seenB * weight * (nodeB[1] * du), single, multiple, r,
+              mi, mu);
       light.rayleigh += r;
       light.mie += mi;
       light.multiple += mu;
