@@ -17,7 +17,7 @@ enum class MieStorage : uint32_t {
   Packed,  ///< Its first channel in the alpha of S; the others by the paper's rule (four values).
 };
 enum class Solver : uint32_t {
-  Moments,   ///< Light on nodes of (r, mu_s) in harmonics; rays are integrated: docs/moment-solver.md.
+  Moments,   ///< Light on nodes of (r, mu_s); rays are integrated: docs/moment-solver.md.
   Standard,  ///< The paper's Algorithm 4.1; tables of rays.
 };
 /// Points of the moment solver's curve of error against cost: docs/accuracy.md has both, measured.
