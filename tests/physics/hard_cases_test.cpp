@@ -146,6 +146,19 @@ TEST(HardCases, ViewAtTheSunAndOpposite) {
   }
 }
 
+TEST(HardCases, ShortSegments) {
+  HardCase hard(preset("earth-hazy"));
+  for (double h : {0.0, 2.0, 1e3, 2e4})
+    for (double length : {1e-3, 1.0, 100.0, 1e4})
+      for (double view : {0.0, 89.9, 90.0, 91.0, 150.0})
+        for (double sun : {20.0, 85.0, 91.0}) {
+          ProbeQuery q = query(h, view, sun, 60.0);
+          q.distance_m = length;
+          hard.add(q);
+        }
+  expectBelow(hard, "segments of 1 mm to 10 km", 1e-3, 0.1, 1e-3);
+}
+
 TEST(HardCases, SunAtTheTerminator) {
   HardCase hard(preset("earth"));
   for (double h : kHeights) {
