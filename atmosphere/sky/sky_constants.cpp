@@ -98,13 +98,14 @@ double cameraAltitude(const Parameters& parameters, const Camera& camera) {
   return std::max(cameraRadius(camera) - parameters.bottomRadius_m, 0.0);
 }
 
-SliceAngles sliceAngles(const Parameters& parameters, double altitude) {
+physics_f64::SliceView sliceView(const Parameters& parameters, double altitude) {
   const double rg = parameters.bottomRadius_m, r = rg + altitude;
   const double rt = parameters.topRadius_m;
-  SliceAngles angles;
-  angles.horizon = std::atan2(rg, std::sqrt(altitude * (2.0 * rg + altitude)));
-  angles.span = (r > rt ? std::asin(rt / r) : kPi) - angles.horizon;
-  return angles;
+  physics_f64::SliceView view;
+  view.horizon = std::atan2(rg, std::sqrt(altitude * (2.0 * rg + altitude)));
+  view.span = (r > rt ? std::asin(rt / r) : kPi) - view.horizon;
+  view.bend = std::clamp(6.0 * std::sqrt(0.5 * kPi - view.horizon), 0.06, 10.0);
+  return view;
 }
 
 Status checkDraw(const engine::Device& device, const ViewDesc& desc, const SkyDraw& draw) {
@@ -178,7 +179,7 @@ SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc,
   store(k.downMapTexel, c.up, -tangent, texel);
   store(k.sunDiscChord, draw.sun.direction, 1.0, disc.chord);
   store(k.irradianceDisc, draw.sun.irradiance.value, scale, disc.radiance);
-  const SliceAngles slice = sliceAngles(parameters, cameraAltitude(parameters, c));
+  const physics_f64::SliceView slice = sliceView(parameters, cameraAltitude(parameters, c));
   k.circleSlice[0] = static_cast<float>(v.width / v.least);
   k.circleSlice[1] = static_cast<float>(v.height / v.least);
   k.circleSlice[2] = static_cast<float>(slice.horizon);
@@ -189,7 +190,7 @@ SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc,
   double across[3];
   for (int i = 0; i < 3; ++i) across[i] = sun[i] - muS * c.position_m[i] / r;
   const double sine = std::sqrt(dot(across, across));
-  store(k.sunAzimuth, across, sine > 1e-12 ? 1.0 / sine : 0.0, 0.0);
+  store(k.sunAzimuth, across, sine > 1e-12 ? 1.0 / sine : 0.0, slice.bend);
   return k;
 }
 

@@ -13,12 +13,11 @@ namespace {
 
 /// Push constants of sky_slice.comp; the standard solver's reads the first two.
 struct SliceConstants {
-  float altitude, muS, horizon, span;
+  float altitude, muS, horizon, span, bend;
 };
 
-/// kSliceAzimuths, and kSliceGroundRows + kSliceSkyRows of shaders/glsl/physics/slice.glsl.
-constexpr VkExtent3D kMomentSlice = {physics_f32::kSliceAzimuths,
-                                     physics_f32::kSliceGroundRows + physics_f32::kSliceSkyRows, 1};
+constexpr VkExtent3D kMomentSlice = {physics_f32::kSliceColumns, physics_f32::kSliceRows, 1};
+static_assert(kMomentSlice.width % 8 == 0 && kMomentSlice.height % 8 == 0);
 
 engine::Shader sliceShader(Solver solver, TableFormat format) {
   namespace s = alpenglow::shaders;
@@ -140,10 +139,10 @@ Status SkySlice::record(VkCommandBuffer commands, const Tables& tables, const Sk
   const double r = cameraRadius(camera);
   double muS = 0.0;
   for (int i = 0; i < 3; ++i) muS += camera.position_m[i] / r * draw.sun.direction[i];
-  const SliceAngles angles = sliceAngles(tables.parameters(), altitude);
+  const physics_f64::SliceView view = sliceView(tables.parameters(), altitude);
   const SliceConstants constants = {static_cast<float>(altitude), static_cast<float>(muS),
-                                    static_cast<float>(angles.horizon),
-                                    static_cast<float>(angles.span)};
+                                    static_cast<float>(view.horizon), static_cast<float>(view.span),
+                                    static_cast<float>(view.bend)};
   const engine::Dispatch& vk = device_.vk();
   const VkDescriptorSet sets[] = {tables.descriptorSet(), set_};
   vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
@@ -151,7 +150,10 @@ Status SkySlice::record(VkCommandBuffer commands, const Tables& tables, const Sk
                            nullptr);
   vk.CmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
                       &constants);
-  vk.CmdDispatch(commands, (extent_.width + 7) / 8, (extent_.height + 7) / 8, 1);
+  const uint32_t columns = solver_ == Solver::Moments
+                               ? static_cast<uint32_t>(physics_f64::sliceAzimuths(view))
+                               : extent_.width;
+  vk.CmdDispatch(commands, (columns + 7) / 8, (extent_.height + 7) / 8, 1);
   ++device_.counters().dispatches;
 
   for (uint32_t i = 0; i < count_; ++i) barriers.image(images_[i], engine::kFragmentSampled);

@@ -14,11 +14,8 @@ double cameraRadius(const Camera& camera);
 /// below the ground.
 double cameraAltitude(const Parameters& parameters, const Camera& camera);
 
-/// SliceView of shaders/glsl/physics/slice.glsl, radians.
-struct SliceAngles {
-  double horizon = 0.0, span = 0.0;
-};
-SliceAngles sliceAngles(const Parameters& parameters, double altitude);
+/// How a camera's rays lie in a slice.
+physics_f64::SliceView sliceView(const Parameters& parameters, double altitude);
 
 /// Owned by a view; externally synchronised.
 class SkySlice {

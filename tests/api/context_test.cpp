@@ -11,7 +11,7 @@ bool contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
 }
 
-TEST_F(SkyTest, ContextArgumentsAreChecked) {
+TEST_F(StandardSkyTest, ContextArgumentsAreChecked) {
   ContextDesc desc = contextDesc();
   EXPECT_EQ(createContext(desc, nullptr), Status::InvalidArgument);
   Context* made = nullptr;
@@ -46,7 +46,7 @@ TEST_F(SkyTest, ContextArgumentsAreChecked) {
   resourceReport(nullptr, nullptr);
 }
 
-TEST_F(SkyTest, RequirementsAreByCapability) {
+TEST_F(StandardSkyTest, RequirementsAreByCapability) {
   Requirements needed;
   const auto query = [&](CapabilityFlags wanted) {
     return queryRequirements(device().getInstanceProcAddr(), device().instance(),
@@ -64,7 +64,7 @@ TEST_F(SkyTest, RequirementsAreByCapability) {
   EXPECT_EQ(query(1u << 9), Status::InvalidArgument);
 }
 
-TEST_F(SkyTest, ABakeContextRefusesViews) {
+TEST_F(StandardSkyTest, ABakeContextRefusesViews) {
   ContextDesc desc = contextDesc();
   desc.capabilities = kCapabilityBake;
   Context* made = nullptr;
@@ -80,7 +80,7 @@ TEST_F(SkyTest, ABakeContextRefusesViews) {
 }
 
 // A host that ships tables asks for the sky alone: it uploads, and nothing of the bake is made.
-TEST_F(SkyTest, ASkyContextTakesUploadsButDoesNotBake) {
+TEST_F(StandardSkyTest, ASkyContextTakesUploadsButDoesNotBake) {
   ContextDesc desc = contextDesc();
   desc.capabilities = kCapabilitySky;
   Context* made = nullptr;
@@ -113,7 +113,7 @@ TEST_F(SkyTest, ASkyContextTakesUploadsButDoesNotBake) {
 }
 
 // dynamicRendering is for views without a render pass alone.
-TEST_F(SkyTest, WithoutDynamicRenderingRenderPassesDraw) {
+TEST_F(StandardSkyTest, WithoutDynamicRenderingRenderPassesDraw) {
   ContextDesc desc = contextDesc();
   desc.enabled.dynamicRendering = false;
   Context* made = nullptr;
@@ -147,7 +147,7 @@ TEST_F(SkyTest, WithoutDynamicRenderingRenderPassesDraw) {
   destroyContext(made);
 }
 
-TEST_F(SkyTest, TableAndProbeArgumentsAreChecked) {
+TEST_F(StandardSkyTest, TableAndProbeArgumentsAreChecked) {
   Tables* made = nullptr;
   EXPECT_EQ(createTables(nullptr, preset("earth"), smallTables(), &made), Status::InvalidArgument);
   EXPECT_EQ(createTables(context(), preset("earth"), smallTables(), nullptr),
@@ -221,7 +221,7 @@ TEST_F(SkyTest, TableAndProbeArgumentsAreChecked) {
 
 // Two contexts on one device, several atmospheres on each, their slices interleaved in the same
 // command buffers: every one answers as it does alone.
-TEST_F(SkyTest, ContextsAndAtmospheresDoNotMix) {
+TEST_F(StandardSkyTest, ContextsAndAtmospheresDoNotMix) {
   const char* const names[] = {"earth", "mars", "earth-hazy"};
   ProbeQuery query;
   query.altitude_m = 1000.0;

@@ -180,7 +180,7 @@ Question questionOf(const ProbeQuery& q) {
   return question;
 }
 
-class HostShaderTest : public SkyTest {
+class HostShaderTest : public StandardSkyTest {
  protected:
   /// Errors up to 1e-3 of the value plus `absolute`.
   void expectTheSame(Solver solver, Tables* tables, double absolute);

@@ -13,7 +13,7 @@ SkyDraw someDraw() {
 
 // Tables and view are destroyed right after they were recorded: the frame that uses them is
 // submitted all the same, and validation would say if they were gone.
-TEST_F(SkyTest, DestroyedInFlightLivesUntilTheFrameCompletes) {
+TEST_F(StandardSkyTest, DestroyedInFlightLivesUntilTheFrameCompletes) {
   Context* made = nullptr;
   ASSERT_EQ(createContext(contextDesc(), &made), Status::Ok);
   Tables* baked = nullptr;
@@ -51,7 +51,7 @@ TEST_F(SkyTest, DestroyedInFlightLivesUntilTheFrameCompletes) {
 }
 
 // In the middle of a bake, too; and what still waits goes with the context.
-TEST_F(SkyTest, BakesCanBeCancelled) {
+TEST_F(StandardSkyTest, BakesCanBeCancelled) {
   Context* made = nullptr;
   ASSERT_EQ(createContext(contextDesc(), &made), Status::Ok);
   Tables* half = nullptr;
@@ -78,7 +78,7 @@ TEST_F(SkyTest, BakesCanBeCancelled) {
 }
 
 // On a device of its own, whose validation hears of the leak as well.
-TEST_F(SkyTest, ForgottenObjectsAreReported) {
+TEST_F(StandardSkyTest, ForgottenObjectsAreReported) {
   auto other = makeDevice();
   ASSERT_NE(other, nullptr);
   const ContextDesc plain = contextDesc();
@@ -99,7 +99,7 @@ TEST_F(SkyTest, ForgottenObjectsAreReported) {
   other.reset();
 }
 
-TEST_F(SkyTest, UploadedTablesDrawTheSameBytes) {
+TEST_F(StandardSkyTest, UploadedTablesDrawTheSameBytes) {
   Context* made = nullptr;
   ContextDesc desc = contextDesc();
   desc.capabilities = kCapabilitySky;
@@ -141,7 +141,7 @@ TEST_F(SkyTest, UploadedTablesDrawTheSameBytes) {
   destroyContext(made);
 }
 
-TEST_F(SkyTest, ResourcesAreCounted) {
+TEST_F(StandardSkyTest, ResourcesAreCounted) {
   Context* made = nullptr;
   ASSERT_EQ(createContext(contextDesc(), &made), Status::Ok);
   ResourceReport report;

@@ -89,7 +89,7 @@ struct Hooks {
   }
 };
 
-TEST_F(SkyTest, HooksServeAllMemory) {
+TEST_F(StandardSkyTest, HooksServeAllMemory) {
   Hooks host;
   host.device = &device();
   ContextDesc desc = contextDesc();
@@ -121,7 +121,7 @@ TEST_F(SkyTest, HooksServeAllMemory) {
   destroyContext(made);
 }
 
-TEST_F(SkyTest, RefusingHooksLeaveNothing) {
+TEST_F(StandardSkyTest, RefusingHooksLeaveNothing) {
   Hooks host;
   host.device = &device();
   const MemoryHooks hooks = host.hooks();
@@ -208,7 +208,7 @@ struct Pool {
 };
 
 // Were one range mapped or unmapped by us, the validation layer would name it: the fixture fails.
-TEST_F(SkyTest, MappedRangesShareOneMemory) {
+TEST_F(StandardSkyTest, MappedRangesShareOneMemory) {
   Pool pool;
   pool.dedicated.device = &device();
   const MemoryHooks hooks = pool.hooks();
@@ -288,7 +288,7 @@ struct Counter {
   }
 };
 
-TEST_F(SkyTest, AllocationCallbacksArePaired) {
+TEST_F(StandardSkyTest, AllocationCallbacksArePaired) {
   Counter counter;
   ContextDesc desc = contextDesc();
   desc.allocator = &counter.callbacks;
@@ -312,7 +312,7 @@ TEST_F(SkyTest, AllocationCallbacksArePaired) {
 
 // After warm-up, slices of a bake and draws allocate nothing: no operator new on this thread, none
 // of the device's objects. On a device without layers, which allocate for themselves.
-TEST_F(SkyTest, RecordingAllocatesNothing) {
+TEST_F(StandardSkyTest, RecordingAllocatesNothing) {
   std::string error;
   const auto bare = headless::Device::create({}, &error);
   ASSERT_NE(bare, nullptr) << error;

@@ -41,7 +41,7 @@ void expectSmall(const char* atmosphere, const char* what, Errors& errors) {
   EXPECT_LT(errors.values.back(), 5e-5) << atmosphere << " " << what;
 }
 
-class QueryTest : public SkyTest {
+class QueryTest : public StandardSkyTest {
  protected:
   Tables* make(const char* name, const TableDesc& desc) {
     Tables* tables = nullptr;
@@ -51,7 +51,7 @@ class QueryTest : public SkyTest {
   }
   void TearDown() override {
     for (Tables* tables : made_) destroyTables(tables, device().frame());
-    SkyTest::TearDown();
+    StandardSkyTest::TearDown();
   }
 
   std::vector<uint8_t> read(Tables* tables, TableId id) {

@@ -16,7 +16,7 @@ void main() {
   MomentShape shape;
   shape.sunWidth = shape.sunRange = shape.heightScale = shape.depthSharpness = 1.0;
   Piece piece = makePiece(medium, ray, 0.0, ray.extent);
-  SliceView view = SliceView(1.5, 1.6);
+  SliceView view = SliceView(1.5, 1.6, 1.0);
   result[2] = vec4(depthCoordinate(medium, shape, ray.h, ray.mu), pieceNode(piece, 0.5));
   result[3] = vec4(reflectedRadiance(medium.groundAlbedo, depth, depth),
                    sliceCoordinate(view, angleFromNadir(ray.mu, 0.5), 0.5, ray.hitsGround).x);

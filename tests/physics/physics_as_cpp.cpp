@@ -19,7 +19,7 @@ physics::Spectrum callEachFile(const physics::Medium& medium) {
                                   physics::opticalDepthOfSegment(medium, ray.h, ray.mu, ray.extent);
   const physics::MomentShape shape{};
   const physics::Piece piece = physics::makePiece(medium, ray, Real(0), ray.extent);
-  const physics::SliceView view{Real(1.5), Real(1.6)};
+  const physics::SliceView view{Real(1.5), Real(1.6), Real(1)};
   const physics::Real2 at =
       physics::depthCoordinate(medium, shape, ray.h, ray.mu) +
       physics::pieceNode(piece, Real(0.5)) +

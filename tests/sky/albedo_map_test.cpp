@@ -110,7 +110,6 @@ class MapDrawing {
 
   Picture draw(const Map& map, const SkyDraw& sky) {
     ViewDesc desc;
-    desc.solver = Solver::Standard;
     desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     desc.groundAlbedo = map.map();
     View*& view = views_[&map];

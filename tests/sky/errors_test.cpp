@@ -100,7 +100,7 @@ TEST_F(SkyTest, FisheyesMayGoAllRound) {
   });
 }
 
-TEST_F(SkyTest, TablesMustFitTheView) {
+TEST_F(StandardSkyTest, TablesMustFitTheView) {
   Tables* unbaked = nullptr;
   ASSERT_EQ(createTables(context(), preset("earth"), smallTables(), &unbaked), Status::Ok);
   Tables* const packed = tables("earth", MieStorage::Packed);
@@ -166,7 +166,6 @@ TEST_F(SkyTest, BadViewsAreRefusedWithTheValue) {
   resourceReport(context(), &start);
   for (const BadView& bad : cases) {
     ViewDesc desc;
-    desc.solver = Solver::Standard;
     desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     bad.spoil(desc);
     message().clear();

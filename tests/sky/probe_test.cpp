@@ -56,6 +56,9 @@ Rays raysOf(const Parameters& parameters, const SkyDraw& draw, Projection projec
   return rays;
 }
 
+class PixelTest : public EitherSkyTest {};
+INSTANTIATE_TEST_SUITE_P(Solvers, PixelTest, kBothSolvers, solverName);
+
 struct Comparison {
   double worst = 0.0;  ///< Relative to the pixel, or to a thousandth of the brightest one.
   size_t index = 0;
@@ -85,9 +88,12 @@ Comparison compare(const Picture& drawn, const Rays& rays,
 // Both read the same tables through the same functions. What differs: the picture's ray is computed
 // in float, and its position in a table along mu amplifies the rounding like a square root at the
 // horizon and at the limb; the ground's transmittance takes 12 points where the probe takes 48,
-// which shows in rays from space. Over these pictures that comes to 2.5e-5 inside the atmosphere
-// and 6.5e-4 outside; the bounds are 4 and 1.5 times as much.
-TEST_F(SkyTest, PixelsAreWhatProbesAnswer) {
+// which shows in rays from space. Over these pictures that comes to 2e-5 inside the atmosphere and
+// 4.4e-4 outside, with either solver; the bounds are 5 and 2 times as much. Only where a ray
+// towards the azimuth of a set sun leaves the Earth's shadow is there more, 1.5e-4: it is cut there
+// by the moment solver's quadrature, and where that is depends on 1 - nu^2, which has few digits
+// left.
+TEST_P(PixelTest, PixelsAreWhatProbesAnswer) {
   const Parameters earth = preset("earth");
   for (const Case& one : kCases) {
     for (const double elevation : {40.0, 1.0, -6.0}) {
@@ -103,7 +109,10 @@ TEST_F(SkyTest, PixelsAreWhatProbesAnswer) {
       const Comparison found = compare(picture(draw, one.projection), rays, answers);
       const ProbeQuery& worst = rays.queries[found.index];
       EXPECT_GT(found.brightest, elevation > 0.0 ? 1e-3 : 1e-7) << one.name;
-      EXPECT_LT(found.worst, one.altitude > 6e4 ? 1e-3 : 1e-4)
+      const bool atShadow = solver() == Solver::Moments && one.altitude == 1e4 && elevation < 0.0;
+      EXPECT_LT(found.worst, one.altitude > 6e4 ? 1e-3
+                             : atShadow         ? 3e-4
+                                                : 1e-4)
           << one.name << ", sun at " << elevation << " degrees, pixel ("
           << rays.pixels[found.index].first << ", " << rays.pixels[found.index].second
           << "), zenith angle " << worst.viewZenith << ", azimuth " << worst.azimuth;
@@ -112,7 +121,7 @@ TEST_F(SkyTest, PixelsAreWhatProbesAnswer) {
 }
 
 // Packed tables, and another planet.
-TEST_F(SkyTest, PixelsAreWhatProbesAnswerForOtherTables) {
+TEST_F(StandardSkyTest, PixelsAreWhatProbesAnswerForOtherTables) {
   ViewDesc packed;
   packed.solver = Solver::Standard;
   packed.mie = MieStorage::Packed;

@@ -1,6 +1,7 @@
 #include "tests/sky/sky_fixture.h"
 
 #include <cmath>
+#include <tuple>
 
 namespace alpenglow::testing {
 namespace {
@@ -9,8 +10,8 @@ namespace {
 struct Shared {
   std::unique_ptr<VulkanWrap> vulkan;
   Context* context = nullptr;
-  std::map<std::pair<std::string, MieStorage>, Tables*> tables;
-  std::map<Projection, View*> views;
+  std::map<std::tuple<std::string, Solver, MieStorage>, Tables*> tables;
+  std::map<std::pair<Projection, Solver>, View*> views;
   std::vector<View*> otherViews;
   std::string message;
 };
@@ -158,21 +159,28 @@ Context* SkyTest::context() {
 }
 
 Tables* SkyTest::tables(const char* presetName, MieStorage mie) {
-  Tables*& slot = shared().tables[{presetName, mie}];
+  Tables*& slot = shared().tables[{presetName, solver_, mie}];
   if (slot == nullptr) {
-    EXPECT_EQ(createTables(context(), preset(presetName), smallTables(mie), &slot), Status::Ok)
-        << message();
+    TableDesc draft;
+    draft.quality = Quality::Draft;
+    const TableDesc desc = solver_ == Solver::Moments ? draft : smallTables(mie);
+    EXPECT_EQ(createTables(context(), preset(presetName), desc, &slot), Status::Ok) << message();
     bakeAll(device(), slot);
   }
   return slot;
 }
 
+ViewDesc SkyTest::viewDesc() const {
+  ViewDesc desc;
+  desc.solver = solver_;
+  desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+  return desc;
+}
+
 View* SkyTest::view(Projection projection) {
-  View*& slot = shared().views[projection];
+  View*& slot = shared().views[{projection, solver_}];
   if (slot == nullptr) {
-    ViewDesc desc;
-    desc.solver = Solver::Standard;
-    desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+    ViewDesc desc = viewDesc();
     desc.projection = projection;
     EXPECT_EQ(createView(context(), desc, &slot), Status::Ok) << message();
   }

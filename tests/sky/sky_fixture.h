@@ -86,7 +86,7 @@ class Target {
   headless::HostBuffer readback_;
 };
 
-/// Sizes and orders whose bake takes about a CPU second.
+/// Of the standard solver: sizes and orders whose bake takes about a CPU second.
 TableDesc smallTables(MieStorage mie = MieStorage::Full);
 Parameters preset(const char* name);
 /// Bakes all of it, one pass a submit.
@@ -106,18 +106,23 @@ std::optional<Vec> pixelDirection(const SkyDraw& draw, Projection projection, do
 ProbeQuery rayQuery(const Parameters& parameters, const Camera& camera, const Vec& direction,
                     const Vec& sun);
 
-/// One context for all tests of a program, with what was baked and made on it.
+/// One context for all tests of a suite, with what was baked and made on it. With the default
+/// solver: its drafts, which take less than a CPU second each.
 class SkyTest : public DeviceTest {
  protected:
+  explicit SkyTest(Solver solver = Solver::Moments) : solver_(solver) {}
+  Solver solver() const { return solver_; }
   void SetUp() override;
   static void TearDownTestSuite();
 
   Context* context();
   VulkanWrap& vulkan();  ///< What `context` calls.
-  /// Baked at the first use.
+  /// Of the suite's solver, baked at the first use.
   Tables* tables(const char* presetName = "earth", MieStorage mie = MieStorage::Full);
   /// Made at the first use, of 32-bit floats unless `desc` says otherwise; destroyed at the end.
   View* view(Projection projection = Projection::Perspective);
+  /// Of 32-bit floats, for the suite's solver.
+  ViewDesc viewDesc() const;
   View* makeView(const ViewDesc& desc);
   /// With view(projection), into a 32-bit float target of the viewport's size.
   Picture picture(const SkyDraw& draw, Projection projection = Projection::Perspective,
@@ -126,7 +131,26 @@ class SkyTest : public DeviceTest {
   std::vector<ProbeAnswer> probeAll(const std::vector<ProbeQuery>& queries, Tables* with = nullptr);
   /// What `context` said last; emptied by SetUp.
   static std::string& message();
+
+ private:
+  Solver solver_;
 };
+
+/// The same with smallTables().
+class StandardSkyTest : public SkyTest {
+ protected:
+  StandardSkyTest() : SkyTest(Solver::Standard) {}
+};
+
+/// With each of the two: derive one for a file, and instantiate it with kBothSolvers.
+class EitherSkyTest : public SkyTest, public ::testing::WithParamInterface<Solver> {
+ protected:
+  EitherSkyTest() : SkyTest(GetParam()) {}
+};
+inline const auto kBothSolvers = ::testing::Values(Solver::Moments, Solver::Standard);
+inline std::string solverName(const ::testing::TestParamInfo<Solver>& info) {
+  return info.param == Solver::Moments ? "Moments" : "Standard";
+}
 
 /// Every value of `picture` that is not finite, or negative: a sentence with the first, or "".
 std::string badValue(const Picture& picture);

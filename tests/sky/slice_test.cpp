@@ -1,4 +1,4 @@
-// The sky slice: the same picture as from the tables, and never a stale one.
+// The sky slice of the standard solver: the same picture as from the tables, and never a stale one.
 #include <cmath>
 
 #include "tests/sky/sky_fixture.h"
@@ -8,7 +8,7 @@ namespace {
 
 constexpr VkExtent2D kExtent = {48, 32};
 
-class SliceTest : public SkyTest {
+class StandardSliceTest : public StandardSkyTest {
  protected:
   SkyDraw drawAt(double altitude, double elevation, double pitch = 5.0) {
     const Parameters earth = preset("earth");
@@ -50,7 +50,7 @@ class SliceTest : public SkyTest {
 };
 
 // Interpolation in r and mu_s before or after that in mu and nu: only float rounding differs.
-TEST_F(SliceTest, GivesThePictureOfTheTables) {
+TEST_F(StandardSliceTest, GivesThePictureOfTheTables) {
   TargetDesc target;
   target.extent = kExtent;
   for (MieStorage mie : {MieStorage::Full, MieStorage::Packed}) {
@@ -71,7 +71,7 @@ TEST_F(SliceTest, GivesThePictureOfTheTables) {
   }
 }
 
-TEST_F(SliceTest, IsNotReadForAnotherCameraSunOrTables) {
+TEST_F(StandardSliceTest, IsNotReadForAnotherCameraSunOrTables) {
   TargetDesc target;
   target.extent = kExtent;
   Tables* earth = tables();
@@ -88,7 +88,7 @@ TEST_F(SliceTest, IsNotReadForAnotherCameraSunOrTables) {
   expectSame(picture(sliced, earth, turned, target), picture(direct, earth, turned, target));
 }
 
-TEST_F(SliceTest, IsOneDispatchInsideAndNoneOutside) {
+TEST_F(StandardSliceTest, IsOneDispatchInsideAndNoneOutside) {
   View* sliced = sliceView();
   uint64_t before = dispatches();
   slice(sliced, tables(), drawAt(2.0, 20.0));
@@ -98,7 +98,7 @@ TEST_F(SliceTest, IsOneDispatchInsideAndNoneOutside) {
   EXPECT_EQ(dispatches(), before);
 }
 
-TEST_F(SliceTest, RefusesViewsAndTablesThatDoNotFit) {
+TEST_F(StandardSliceTest, RefusesViewsAndTablesThatDoNotFit) {
   View* plain = view();
   View* sliced = sliceView();
   const SkyDraw draw = drawAt(2.0, 20.0);

@@ -26,7 +26,6 @@ TEST_F(SkyTest, RenderPassesAndDynamicRenderingDrawTheSame) {
     desc.renderPass = true;
     Target target(device(), desc);
     ViewDesc viewDesc;
-    viewDesc.solver = Solver::Standard;
     viewDesc.colorFormat = desc.color;
     viewDesc.depthFormat = depth;
     viewDesc.renderPass = target.renderPass();
@@ -49,7 +48,6 @@ TEST_F(SkyTest, NearerObjectsKeepTheirPixels) {
       const SkyDraw draw = horizonDraw(earth, desc.extent);
       const Picture plain = picture(draw);
       ViewDesc viewDesc;
-      viewDesc.solver = Solver::Standard;
       viewDesc.depthFormat = format;
       viewDesc.depth = reversed ? DepthConvention::Reversed : DepthConvention::Standard;
       View* const made = makeView(viewDesc);
@@ -82,7 +80,6 @@ TEST_F(SkyTest, MultisampledTargetsHoldTheSamePicture) {
     const SkyDraw draw = horizonDraw(earth, desc.extent);
     const Picture plain = picture(draw);
     ViewDesc viewDesc;
-    viewDesc.solver = Solver::Standard;
     viewDesc.samples = desc.samples;
     viewDesc.depthFormat = depth;
     const Picture drawn = picture(makeView(viewDesc), tables(), draw, desc);
@@ -100,7 +97,6 @@ TEST_F(SkyTest, RadianceScaleSavesNightInHalfFloats) {
   draw.sun.discRadius = 0.0;
   const Picture floats = picture(draw);
   ViewDesc viewDesc;
-  viewDesc.solver = Solver::Standard;
   viewDesc.colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
   View* const halves = makeView(viewDesc);
   TargetDesc desc;

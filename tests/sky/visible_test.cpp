@@ -39,6 +39,9 @@ sky::Visible bruteForce(const Parameters& parameters, const ViewDesc& desc, cons
   return seen;
 }
 
+class VariantTest : public EitherSkyTest {};
+INSTANTIATE_TEST_SUITE_P(Solvers, VariantTest, kBothSolvers, solverName);
+
 TEST(VisibleTest, IsConservativeAndUseful) {
   Parameters earth;
   ASSERT_EQ(findPreset("earth", &earth), Status::Ok);
@@ -53,7 +56,6 @@ TEST(VisibleTest, IsConservativeAndUseful) {
       discUnseen = 0;
   for (int i = 0; i < 4000; ++i) {
     ViewDesc desc;
-    desc.solver = Solver::Standard;
     desc.projection = i % 2 == 0 ? Projection::Perspective : Projection::Fisheye;
     const double most = i % 2 == 0 ? radians(175.0) : 2.0 * kPi;
     const double altitude = uniform(random) < 0.2 ? 0.0 : std::pow(10.0, 8.0 * uniform(random));
@@ -90,14 +92,12 @@ TEST(VisibleTest, IsConservativeAndUseful) {
 
 // The variants without ground or disc draw what the full one draws, bit by bit, as the camera turns
 // until the ground, then the sun, comes into view.
-TEST_F(SkyTest, VariantsDrawWhatTheFullOneDraws) {
+TEST_P(VariantTest, VariantsDrawWhatTheFullOneDraws) {
   const Parameters earth = preset("earth");
   double sun[3];
   sunDirection(0.0, 0.0, radians(15.0), 0.0, sun);
   for (const Projection projection : {Projection::Perspective, Projection::Fisheye}) {
-    ViewDesc desc;
-    desc.solver = Solver::Standard;
-    desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+    ViewDesc desc = viewDesc();
     desc.projection = projection;
     vulkan().forcedConstants = {{2, VK_TRUE}, {3, VK_TRUE}};
     View* const full = makeView(desc);

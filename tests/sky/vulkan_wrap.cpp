@@ -65,12 +65,17 @@ VKAPI_ATTR VkResult VKAPI_CALL createGraphicsPipelines(VkDevice device, VkPipeli
                                                        const VkAllocationCallbacks* allocator,
                                                        VkPipeline* out) {
   if (current->failsNow("vkCreateGraphicsPipelines")) return current->failWith;
-  if (current->forcedConstants.empty() || count != 1)
+  const bool changes =
+      !current->forcedConstants.empty() || current->forcedFragment != VK_NULL_HANDLE;
+  if (!changes || count != 1)
     return realCreateGraphicsPipelines(device, cache, count, infos, allocator, out);
   VkGraphicsPipelineCreateInfo info = infos[0];
   std::vector<VkPipelineShaderStageCreateInfo> stages(info.pStages, info.pStages + info.stageCount);
   std::vector<Specialization> specializations(info.stageCount);
   for (uint32_t i = 0; i < info.stageCount; ++i) {
+    if (current->forcedFragment != VK_NULL_HANDLE &&
+        stages[i].stage == VK_SHADER_STAGE_FRAGMENT_BIT)
+      stages[i].module = current->forcedFragment;
     if (stages[i].pSpecializationInfo == nullptr) continue;
     force(stages[i], &specializations[i]);
     stages[i].pSpecializationInfo = &specializations[i].info;

@@ -30,6 +30,8 @@ class VulkanWrap {
 
   /// Specialization constants that new graphics pipelines get instead of what was asked for.
   std::map<uint32_t, uint32_t> forcedConstants;
+  /// Fragment shader of new graphics pipelines, if not null.
+  VkShaderModule forcedFragment = VK_NULL_HANDLE;
 
   // For the functions that it hands out.
   bool failsNow(const char* name);

@@ -2,41 +2,90 @@
 // made anew for each camera and sun. Rows are dense towards the horizon on both of its sides, so it serves
 // from the ground, where the sky fills half the sphere, to outer space, where it is a thin ring.
 
-const int kSliceAzimuths = 64;
-const int kSliceGroundRows = 48;
-const int kSliceSkyRows = 112;
+const int kSliceColumns = 128;
+const int kSliceRows = 160;
 
 // Angles from the nadir, of the horizon and of the highest ray that meets the air (pi inside it). Given in
 // place of zenith angles, which have no digits left for a planet far below.
 struct SliceView {
   Real horizon;
   Real span;  // from the horizon to the highest ray
+  Real bend;  // the less, the nearer to the horizon the ground's rows draw together
 };
 
-// u in [0, 1] of a ray on its side of the horizon, and back.
+// The same of the sky's rows seen from inside.
+ALPENGLOW_FN Real sliceSkyBend() { return REAL(0.8); }
+
+ALPENGLOW_FN bool sliceFromSpace(IN(SliceView) view) { return view.span < view.horizon; }
+
+// Rows of the ground's side; the sky's follow.
+ALPENGLOW_FN Real sliceGroundRows(IN(SliceView) view) {
+  return sliceFromSpace(view) ? REAL(96.0) : REAL(48.0);
+}
+
+// Columns in use. Seen from space the terminator crosses them, where light falls by orders of magnitude;
+// from inside all that is left of it is twilight. A column more is filled if there is one, for the filter.
+ALPENGLOW_FN Real sliceAzimuths(IN(SliceView) view) {
+  return sliceFromSpace(view) ? Real(kSliceColumns) : REAL(63.0);
+}
+
+// u in [0, 1] of a ray on its side of the horizon, and back. The square root is what light is smooth in on
+// both sides of the horizon, and at the far side of the ring, where rays come to an end. Seen from near
+// the ground the distance to it changes by a factor of a thousand in a degree.
 ALPENGLOW_FN Real sliceUnit(IN(SliceView) view, Real nadirAngle, bool hitsGround) {
-  Real below = (view.horizon - nadirAngle) / max(view.horizon, REAL(1e-30));
-  Real above = (nadirAngle - view.horizon) / max(view.span, REAL(1e-30));
-  return sqrt(clamp(hitsGround ? below : above, REAL(0.0), REAL(1.0)));
+  Real off = hitsGround ? view.horizon - nadirAngle : nadirAngle - view.horizon;
+  Real whole = max(hitsGround ? view.horizon : view.span, REAL(1e-30));
+  Real share = clamp(off / whole, REAL(0.0), REAL(1.0));
+  Real root = sqrt(share);
+  Real bend = hitsGround ? view.bend : sliceSkyBend();
+  bool ring = !hitsGround && sliceFromSpace(view);
+  return ring ? root / (root + sqrt(REAL(1.0) - share)) : root * (REAL(1.0) + bend) / (root + bend);
 }
 
 ALPENGLOW_FN Real sliceNadirAngle(IN(SliceView) view, Real u, bool hitsGround) {
-  return hitsGround ? view.horizon * (REAL(1.0) - u * u) : view.horizon + view.span * u * u;
+  Real bend = hitsGround ? view.bend : sliceSkyBend();
+  Real root = u * bend / (REAL(1.0) + bend - u);
+  bool ring = !hitsGround && sliceFromSpace(view);
+  Real rest = REAL(1.0) - u;
+  Real share = ring ? u * u / (u * u + rest * rest) : root * root;
+  return hitsGround ? view.horizon * (REAL(1.0) - share) : view.horizon + view.span * share;
 }
 
 // Texture coordinate; sineHalf: sine of half the azimuth, even and smooth at both its ends as the light is.
 ALPENGLOW_FN Real2 sliceCoordinate(IN(SliceView) view, Real nadirAngle, Real sineHalf,
                                    bool hitsGround) {
-  Real rows = Real(kSliceGroundRows + kSliceSkyRows);
   Real u = sliceUnit(view, nadirAngle, hitsGround);
-  Real texel = hitsGround ? u * Real(kSliceGroundRows - 1)
-                          : Real(kSliceGroundRows) + u * Real(kSliceSkyRows - 1);
-  return Real2(insetCoordinate(sineHalf, Real(kSliceAzimuths)), (texel + REAL(0.5)) / rows);
+  Real ground = sliceGroundRows(view);
+  Real texel = hitsGround ? u * (ground - REAL(1.0))
+                          : ground + u * (Real(kSliceRows) - ground - REAL(1.0));
+  return Real2((REAL(0.5) + sineHalf * (sliceAzimuths(view) - REAL(1.0))) / Real(kSliceColumns),
+               (texel + REAL(0.5)) / Real(kSliceRows));
 }
 
 // Angle between a direction and the nadir from its zenith cosine and from sin^2 of half that angle, which
-// keeps its digits near the nadir.
+// keeps its digits near the nadir: arcCosine(-mu) else.
 ALPENGLOW_FN Real angleFromNadir(Real mu, Real sineHalfSquared) {
-  Real near_ = REAL(2.0) * arcSineOfSmall(sqrt(min(sineHalfSquared, REAL(0.25))));
-  return mu < REAL(-0.5) ? near_ : arcCosine(-mu);
+  Real a = abs(mu);
+  bool wide = a > REAL(0.5);
+  Real half_ = mu < REAL(0.0) ? sineHalfSquared : REAL(0.5) * (REAL(1.0) - a);
+  Real p = arcSineOfSmall(wide ? sqrt(max(half_, REAL(0.0))) : a);
+  Real fromAxis = wide ? REAL(2.0) * p : REAL(0.5) * REAL(ALPENGLOW_PI) - p;
+  return mu < REAL(0.0) ? fromAxis : REAL(ALPENGLOW_PI) - fromAxis;
+}
+
+// A texel keeps the logarithm of its light, because across the terminator light falls by more than a texel
+// can follow; and apart, as a share of it, single Mie scattering without its phase function, which is too
+// narrow for texels. The light that the logarithm is of has an even phase function in place of that.
+ALPENGLOW_FN Real sliceEvenPhase() { return REAL(0.25) / REAL(ALPENGLOW_PI); }
+
+ALPENGLOW_FN void encodeSlice(Spectrum smooth_, Spectrum mie, OUT(Spectrum) logarithm,
+                              OUT(Spectrum) mieShare) {
+  Spectrum light = max(smooth_ + mie * sliceEvenPhase(), SPECTRUM(darkness()));
+  logarithm = log(light);
+  mieShare = mie / light;
+}
+
+ALPENGLOW_FN Spectrum decodeSlice(Spectrum logarithm, Spectrum mieShare, Real miePhase_) {
+  return exp(logarithm) *
+         max(SPECTRUM(REAL(1.0)) + mieShare * (miePhase_ - sliceEvenPhase()), SPECTRUM(REAL(0.0)));
 }

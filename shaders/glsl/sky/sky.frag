@@ -35,7 +35,7 @@ layout(push_constant) uniform SkyConstants {
   vec4 sunDiscChord;      // towards the sun; chord to where the drawn disc's edge is at 1/2
   vec4 irradianceDisc;    // solar irradiance times radianceScale; the disc's radiance per unit of it
   vec4 circleSlice;       // xy: ndc to units of the fisheye's circle; zw: SliceView
-  vec4 sunAzimuth;        // horizontal unit vector towards the sun
+  vec4 sunAzimuth;        // horizontal unit vector towards the sun; w: SliceView
 };
 
 layout(location = 0) in vec2 ndc;
@@ -101,11 +101,11 @@ Spectrum sliceTerm(Ray ray, vec3 view) {
   vec3 across = view - mu * upAltitude.xyz;
   vec3 fromNadir = view + upAltitude.xyz;
   float cosine = dot(across, sunAzimuth.xyz) * inversesqrt(max(dot(across, across), 1e-20));
-  SliceView slice = SliceView(circleSlice.z, circleSlice.w);
+  SliceView slice = SliceView(circleSlice.z, circleSlice.w, sunAzimuth.w);
   vec2 at = sliceCoordinate(slice, angleFromNadir(mu, 0.25 * dot(fromNadir, fromNadir)),
                             sqrt(clamp(0.5 - 0.5 * cosine, 0.0, 1.0)), ray.hitsGround);
-  Spectrum light = readSlice(at).rgb +
-                   readSliceMie(at) * miePhase(alpenglowMedium.mieAsymmetry, ray.nu);
+  Spectrum light = decodeSlice(readSlice(at).rgb, readSliceMie(at),
+                               miePhase(alpenglowMedium.mieAsymmetry, ray.nu));
   return ray.inAtmosphere ? light : SPECTRUM(0.0);
 #endif
 }

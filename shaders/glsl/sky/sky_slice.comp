@@ -1,7 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The sky slice of one frame (physics/slice.glsl): light that arrives at the camera along each ray, single
-// Mie scattering apart and without its phase function, which is too narrow for the slice's texels.
+// The sky slice of one frame (physics/slice.glsl): light that arrives at the camera along each ray.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -13,17 +12,18 @@ layout(set = 1, binding = 1, ALPENGLOW_STORAGE) uniform writeonly image2D sliceM
 layout(push_constant) uniform Camera {
   float altitude;
   float muS;
-  float horizon, span;  // SliceView
+  float horizon, span, bend;  // SliceView
 };
 
 void main() {
-  ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(texel, imageSize(slice)))) return;
-  bool hitsGround = texel.y < kSliceGroundRows;
-  float u = hitsGround ? unitFromTexel(float(texel.y), float(kSliceGroundRows))
-                       : unitFromTexel(float(texel.y - kSliceGroundRows), float(kSliceSkyRows));
-  float angle = sliceNadirAngle(SliceView(horizon, span), u, hitsGround);
-  float sineHalf = unitFromTexel(float(texel.x), float(kSliceAzimuths));
+  ivec2 texel = ivec2(gl_GlobalInvocationID.xy);  // the image is whole groups
+  SliceView view = SliceView(horizon, span, bend);
+  float ground = sliceGroundRows(view);
+  bool hitsGround = float(texel.y) < ground;
+  float u = hitsGround ? unitFromTexel(float(texel.y), ground)
+                       : unitFromTexel(float(texel.y) - ground, float(kSliceRows) - ground);
+  float angle = sliceNadirAngle(view, u, hitsGround);
+  float sineHalf = min(unitFromTexel(float(texel.x), sliceAzimuths(view)), 1.0);
   float mu = -cos(angle);
   float sine = sin(angle);
   float cosPhi = 1.0 - 2.0 * sineHalf * sineHalf;
@@ -34,6 +34,8 @@ void main() {
   ray.extent = hitsGround ? distanceToGround(alpenglowMedium, ray.h, ray.mu)
                           : distanceToTop(alpenglowMedium, ray.h, ray.mu);
   PathLight light = alpenglowPathLight(ray, ray.extent);
-  imageStore(slice, texel, vec4(light.rayleigh * rayleighPhase(nu) + light.multiple, 0.0));
-  imageStore(sliceMie, texel, vec4(light.mie, 0.0));
+  Spectrum logarithm, mieShare;
+  encodeSlice(light.rayleigh * rayleighPhase(nu) + light.multiple, light.mie, logarithm, mieShare);
+  imageStore(slice, texel, vec4(logarithm, 0.0));
+  imageStore(sliceMie, texel, vec4(mieShare, 0.0));
 }

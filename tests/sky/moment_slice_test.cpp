@@ -1,0 +1,229 @@
+// The sky slice of the moment solver against the rays that it stands for: pictures from a slice and
+// by integrating each pixel's ray through the same tables.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "tests/sky/sky_fixture.h"
+
+namespace alpenglow::testing {
+namespace {
+
+/// What is looked at, and how far a picture from the slice may be from one without.
+struct Look {
+  const char* name;
+  double altitude;
+  double p95, p99;        ///< Relative errors.
+  double wildest = 5e-3;  ///< See SliceErrors.
+};
+
+struct Shot {
+  Projection projection;
+  double heading, pitch, fov;  ///< Radians.
+  VkExtent2D extent;
+};
+
+constexpr double kSunAzimuth = 0.5;
+// Day, low sun, civil, nautical and astronomical twilight.
+constexpr double kSuns[] = {50.0, 3.0, -4.0, -9.0, -15.0};
+
+/// Relative to the pixel, or to a thousandth of the picture's brightest, or to a night sky's 1e-9.
+struct SliceErrors {
+  std::vector<double> errors;
+  size_t steps = 0, wildSteps = 0;  ///< Between neighbours; more than 3 of the direct ones + 0.1 %.
+  double wildest = 0.0;             ///< By how much more.
+
+  void add(const Picture& direct, const Picture& sliced) {
+    float brightest = 0.0f;
+    for (size_t i = 0; i < direct.data.size(); ++i)
+      if (i % 4 != 3) brightest = std::max(brightest, direct.data[i]);
+    const double dark = std::max(1e-3 * static_cast<double>(brightest), 1e-9);
+    for (uint32_t y = 0; y < direct.height; ++y)
+      for (uint32_t x = 0; x < direct.width; ++x) addPixel(direct, sliced, x, y, dark);
+  }
+
+ private:
+  void addPixel(const Picture& direct, const Picture& sliced, uint32_t x, uint32_t y, double dark) {
+    double error = 0.0, excess = 0.0;
+    for (int c = 0; c < 3; ++c) {
+      const auto step = [&](const Picture& p) {
+        return y > 0 ? std::abs(static_cast<double>(p.at(x, y)[c] - p.at(x, y - 1)[c])) : 0.0;
+      };
+      const double wanted = direct.at(x, y)[c], got = sliced.at(x, y)[c];
+      const double scale = std::max(wanted, dark);
+      error = std::max(error, std::abs(got - wanted) / scale);
+      excess = std::max(excess, (step(sliced) - 3.0 * step(direct)) / scale - 1e-3);
+    }
+    errors.push_back(error);
+    ++steps;
+    wildSteps += excess > 0.0 ? 1 : 0;
+    wildest = std::max(wildest, excess);
+  }
+};
+
+class MomentSliceTest : public SkyTest {
+ protected:
+  View* slicedView(Projection projection) {
+    View*& made = sliced_[projection];
+    if (made == nullptr) {
+      ViewDesc desc = viewDesc();
+      desc.projection = projection;
+      desc.skySlice = tables();
+      made = makeView(desc);
+    }
+    return made;
+  }
+
+  void recordSlice(View* sliced, const Tables* with, const SkyDraw& draw) {
+    run([&](VkCommandBuffer commands) {
+      return recordSkySlice(sliced, commands, device().frame(), with, draw) == Status::Ok;
+    });
+  }
+
+  /// From the slice that was recorded last, if it serves.
+  Picture drawnBy(View* with, Tables* baked, const SkyDraw& draw) {
+    TargetDesc target;
+    target.extent = draw.viewport.extent;
+    return picture(with, baked, draw, target);
+  }
+
+  SkyDraw drawOf(const Shot& shot, double altitude, double elevation) {
+    double sun[3];
+    sunDirection(0.0, 0.0, radians(elevation), kSunAzimuth, sun);
+    return makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, altitude,
+                                       kSunAzimuth + shot.heading, shot.pitch, 0.0, shot.fov),
+                    vec(sun), shot.extent);
+  }
+
+  /// All shots of one sun look into one slice, whichever way they turn.
+  SliceErrors errorsOf(const Look& look, double elevation, const std::vector<Shot>& shots) {
+    SliceErrors found;
+    View* const sliced = slicedView(shots[0].projection);
+    recordSlice(sliced, tables(), drawOf(shots[0], look.altitude, elevation));
+    for (const Shot& shot : shots) {
+      const SkyDraw draw = drawOf(shot, look.altitude, elevation);
+      found.add(picture(draw, shot.projection), drawnBy(sliced, tables(), draw));
+    }
+    std::sort(found.errors.begin(), found.errors.end());
+    return found;
+  }
+
+  /// Compares and prints; the shots may depend on the sun's elevation in degrees.
+  void expectClose(const Look& look, const std::function<std::vector<Shot>(double)>& shots) {
+    std::printf("%-9s %9.0f m ", look.name, look.altitude);
+    for (const double elevation : kSuns) {
+      const SliceErrors found = errorsOf(look, elevation, shots(elevation));
+      const std::vector<double>& e = found.errors;
+      const double p95 = e[e.size() * 95 / 100], p99 = e[e.size() * 99 / 100];
+      const double wild = double(found.wildSteps) / double(found.steps);
+      std::printf("| %5.3f %5.3f, %.3f %4.2f ", 100 * p95, 100 * p99, 100 * wild,
+                  100 * found.wildest);
+      EXPECT_LT(p95, look.p95) << look.name << " " << look.altitude << ", sun " << elevation;
+      EXPECT_LT(p99, look.p99) << look.name << " " << look.altitude << ", sun " << elevation;
+      EXPECT_LT(wild, 6e-3) << look.name << " " << look.altitude << ", sun " << elevation;
+      EXPECT_LT(found.wildest, look.wildest)
+          << look.name << " " << look.altitude << ", sun " << elevation;
+    }
+    std::printf("\n");
+  }
+
+  static double dip(double altitude) {
+    const Parameters earth = preset("earth");
+    return std::acos(earth.bottomRadius_m / (earth.bottomRadius_m + altitude));
+  }
+  /// Angle from the horizon to the top of the air, or 3 degrees inside it.
+  static double limb(double altitude) {
+    const Parameters earth = preset("earth");
+    const double r = earth.bottomRadius_m + altitude;
+    return r > earth.topRadius_m ? dip(altitude) - std::acos(earth.topRadius_m / r) : radians(3.0);
+  }
+
+ private:
+  std::map<Projection, View*> sliced_;
+};
+
+// At 61 km the pixels, 4 degrees apart, straddle the edge of the night in the limb.
+TEST_F(MomentSliceTest, WholePicturesAreThoseOfTheTables) {
+  for (const Look& look : {Look{"whole", 2.0, 2e-3, 5e-3}, Look{"whole", 1e4, 2e-3, 5e-3},
+                           Look{"whole", 5.9e4, 1e-3, 6e-3}, Look{"whole", 6.1e4, 3e-4, 3e-3, 0.05},
+                           Look{"whole", 4e5, 3e-4, 2e-3}, Look{"whole", 3.6e7, 7e-3, 3e-2}}) {
+    const double fov = look.altitude > 1e7 ? radians(18.5) : 2.0 * kPi;
+    expectClose(look, [&](double) -> std::vector<Shot> {
+      return {{Projection::Fisheye, 0.0, radians(-90.0), fov, {96, 96}}};
+    });
+  }
+}
+
+TEST_F(MomentSliceTest, TheHorizonIsThatOfTheTables) {
+  for (const Look& look : {Look{"horizon", 2.0, 1e-3, 2e-3}, Look{"horizon", 1e4, 1e-2, 1.5e-2},
+                           Look{"horizon", 4e5, 8e-3, 1e-2}, Look{"horizon", 3.6e7, 4e-3, 5e-3}}) {
+    expectClose(look, [&](double) {
+      std::vector<Shot> shots;
+      for (const double azimuth : {0.0, 15.0, 60.0, 180.0})
+        shots.push_back({Projection::Perspective,
+                         radians(azimuth),
+                         -dip(look.altitude),
+                         radians(0.1),
+                         {4, 64}});
+      return shots;
+    });
+  }
+}
+
+TEST_F(MomentSliceTest, TheLimbIsThatOfTheTables) {
+  for (const Look& look : {Look{"limb", 2.0, 2e-3, 3e-3}, Look{"limb", 1e4, 4e-2, 6e-2},
+                           Look{"limb", 4e5, 1e-2, 2e-2}, Look{"limb", 3.6e7, 4e-3, 5e-3}}) {
+    const double high = limb(look.altitude);
+    expectClose(look, [&](double) {
+      std::vector<Shot> shots;
+      for (const double azimuth : {0.0, 60.0, 180.0})
+        shots.push_back({Projection::Perspective,
+                         radians(azimuth),
+                         0.5 * high - dip(look.altitude),
+                         1.3 * high,
+                         {8, 96}});
+      return shots;
+    });
+  }
+}
+
+TEST_F(MomentSliceTest, TheAureoleIsThatOfTheTables) {
+  for (const Look& look : {Look{"aureole", 2.0, 5e-4, 1e-3}, Look{"aureole", 1e4, 4e-3, 8e-3}}) {
+    expectClose(look, [&](double elevation) -> std::vector<Shot> {
+      return {{Projection::Perspective, 0.0, radians(elevation), radians(6.0), {48, 48}}};
+    });
+  }
+}
+
+TEST_F(MomentSliceTest, IsNotReadForAnotherCameraSunOrTables) {
+  Tables* const earth = tables();
+  Tables* const hazy = tables("earth-hazy");
+  View* const sliced = slicedView(Projection::Perspective);
+  const Shot ahead = {Projection::Perspective, 0.2, 0.1, 1.2, {24, 16}};
+  const SkyDraw draw = drawOf(ahead, 2.0, 20.0);
+  recordSlice(sliced, earth, draw);
+  EXPECT_NE(drawnBy(sliced, earth, draw).data, picture(draw).data) << "was the slice read?";
+  for (const SkyDraw& other :
+       {drawOf(ahead, 2.5, 20.0), drawOf(ahead, 2.0, 20.1), drawOf(ahead, 4e5, 20.0)})
+    EXPECT_EQ(drawnBy(sliced, earth, other).data, picture(other).data);
+  EXPECT_EQ(drawnBy(sliced, hazy, draw).data, picture(draw, ahead.projection, hazy).data);
+  // One slice for the tables of any atmosphere.
+  recordSlice(sliced, hazy, draw);
+  EXPECT_NE(drawnBy(sliced, hazy, draw).data, picture(draw, ahead.projection, hazy).data);
+  EXPECT_EQ(drawnBy(sliced, earth, draw).data, picture(draw).data);
+}
+
+TEST_F(MomentSliceTest, IsOneDispatchInsideAndOutside) {
+  View* const sliced = slicedView(Projection::Perspective);
+  for (const double altitude : {2.0, 4e5}) {
+    ResourceReport before, after;
+    resourceReport(context(), &before);
+    recordSlice(sliced, tables(),
+                drawOf({Projection::Perspective, 0.2, 0.1, 1.2, {24, 16}}, altitude, 20.0));
+    resourceReport(context(), &after);
+    EXPECT_EQ(after.dispatches, before.dispatches + 1);
+  }
+}
+
+}  // namespace
+}  // namespace alpenglow::testing
