@@ -12,31 +12,9 @@ constexpr double kPi = std::numbers::pi;
 
 double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-double angleBetween(const double a[3], const double b[3]) {
-  const double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                           a[0] * b[1] - a[1] * b[0]};
-  return std::atan2(std::sqrt(dot(cross, cross)), dot(a, b));
-}
-
 void store(float out[4], const double xyz[3], double scale, double w) {
   for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(xyz[i] * scale);
   out[3] = static_cast<float>(w);
-}
-
-struct Viewport {
-  double width, height, least;
-};
-
-Viewport viewportOf(const SkyDraw& draw) {
-  const double width = draw.viewport.extent.width, height = draw.viewport.extent.height;
-  return {width, height, std::min(width, height)};
-}
-
-// Of a pixel at the centre of the view, radians.
-double pixelAngle(const ViewDesc& desc, const SkyDraw& draw) {
-  const Viewport v = viewportOf(draw);
-  return desc.projection == Projection::Fisheye ? draw.camera.fov / v.least
-                                                : 2.0 * std::tan(0.5 * draw.camera.fov) / v.height;
 }
 
 // The disc is drawn with a linear edge one pixel wide about `chord`: coverage is 1/2 there. Chosen
@@ -136,31 +114,10 @@ Status checkDraw(const engine::Device& device, const ViewDesc& desc, const SkyDr
   return checkViewport(device, draw.viewport);
 }
 
-Visible visible(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw) {
-  const Camera& c = draw.camera;
-  const Viewport v = viewportOf(draw);
-  const double tangent = std::tan(0.5 * c.fov);
-  const double halfDiagonal = desc.projection == Projection::Fisheye
-                                  ? 0.5 * c.fov
-                                  : std::atan(tangent * std::hypot(v.width / v.height, 1.0));
-  // Radians: rounding on the GPU, and the disc's soft edge (see drawnDisc), which a chord makes
-  // longer.
-  const double margin = 0.005;
-  const double edge = 2.0 * pixelAngle(desc, draw);
-  const double r = cameraRadius(c);
-  const double down[3] = {-c.position_m[0] / r, -c.position_m[1] / r, -c.position_m[2] / r};
-  const double planet = std::asin(std::min(1.0, parameters.bottomRadius_m / r));
-  Visible result;
-  result.ground = angleBetween(c.forward, down) < planet + halfDiagonal + margin;
-  result.disc = draw.sun.discRadius > 0.0 && angleBetween(c.forward, draw.sun.direction) <
-                                                 draw.sun.discRadius + halfDiagonal + edge + margin;
-  return result;
-}
-
 SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc,
                            const SkyDraw& draw) {
   const Camera& c = draw.camera;
-  const Viewport v = viewportOf(draw);
+  const ViewportSize v = viewportSize(draw);
   const bool fisheye = desc.projection == Projection::Fisheye;
   const double right[3] = {c.forward[1] * c.up[2] - c.forward[2] * c.up[1],
                            c.forward[2] * c.up[0] - c.forward[0] * c.up[2],

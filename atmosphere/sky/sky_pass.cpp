@@ -208,15 +208,18 @@ Status View::makePipelines(bool slice, VkPipeline* pipelines) {
   desc.subpass = desc_.subpass;
   desc.depthTest = desc_.depthFormat != VK_FORMAT_UNDEFINED;
   desc.depthCompare = reversed ? VK_COMPARE_OP_GREATER_OR_EQUAL : VK_COMPARE_OP_LESS_OR_EQUAL;
-  for (uint32_t i = 0; i < kVariants; ++i) {
+  for (const sky::Visible seen : sky::kCombinations) {
     const engine::SpecConstant constants[] = {
         engine::specBool(0, desc_.mie == MieStorage::Packed),
         engine::specBool(1, desc_.projection == Projection::Fisheye),
-        engine::specBool(2, (i & 1) != 0), engine::specBool(3, (i & 2) != 0),
-        engine::specFloat(4, reversed ? 0.0f : 1.0f)};
+        engine::specBool(2, seen.ground),
+        engine::specBool(3, seen.disc),
+        engine::specFloat(4, reversed ? 0.0f : 1.0f),
+        engine::specBool(5, seen.air)};
     desc.constants = constants;
-    desc.constantCount = 5;
-    const Status status = engine::createGraphicsPipeline(device_, desc, &pipelines[i]);
+    desc.constantCount = 6;
+    const Status status =
+        engine::createGraphicsPipeline(device_, desc, &pipelines[sky::variant(seen)]);
     if (status != Status::Ok) return status;
   }
   return Status::Ok;
@@ -273,7 +276,6 @@ Status View::recordSky(VkCommandBuffer commands, const Tables& tables, const Sky
 
   const engine::Dispatch& vk = device_.vk();
   const sky::SkyConstants constants = sky::makeConstants(tables.parameters(), desc_, draw);
-  const uint32_t chosen = variant(sky::visible(tables.parameters(), desc_, draw));
   const VkRect2D& area = draw.viewport;
   const VkViewport viewport = {static_cast<float>(area.offset.x),
                                static_cast<float>(area.offset.y),
@@ -282,17 +284,36 @@ Status View::recordSky(VkCommandBuffer commands, const Tables& tables, const Sky
                                0.0f,
                                1.0f};
   const VkDescriptorSet sets[2] = {tables.descriptorSet(), set_};
-  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                     fromSlice ? slicePipelines_[chosen] : pipelines_[chosen]);
   vk.CmdSetViewport(commands, 0, 1, &viewport);
-  vk.CmdSetScissor(commands, 0, 1, &area);
   vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0,
                            set_ != VK_NULL_HANDLE ? 2 : 1, sets, 0, nullptr);
   vk.CmdPushConstants(commands, layout_, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,
                       &constants);
-  vk.CmdDraw(commands, 3, 1, 0, 0);
-  ++device_.counters().draws;
+  drawParts(commands, sky::cut(tables.parameters(), desc_, draw), area.offset,
+            fromSlice ? slicePipelines_ : pipelines_);
   return Status::Ok;
+}
+
+void View::drawParts(VkCommandBuffer commands, const sky::Parts& parts, const VkOffset2D& corner,
+                     const VkPipeline* pipelines) {
+  const engine::Dispatch& vk = device_.vk();
+  VkPipeline bound = VK_NULL_HANDLE;
+  for (const sky::Visible seen : sky::kCombinations) {
+    for (uint32_t i = 0; i < parts.count; ++i) {
+      const sky::Part& part = parts.parts[i];
+      if (!(part.visible == seen)) continue;
+      if (pipelines[sky::variant(seen)] != bound) {
+        bound = pipelines[sky::variant(seen)];
+        vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, bound);
+      }
+      VkRect2D scissor = part.area;
+      scissor.offset.x += corner.x;
+      scissor.offset.y += corner.y;
+      vk.CmdSetScissor(commands, 0, 1, &scissor);
+      vk.CmdDraw(commands, 3, 1, 0, 0);
+      ++device_.counters().draws;
+    }
+  }
 }
 
 }  // namespace v1

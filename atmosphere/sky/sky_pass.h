@@ -4,6 +4,7 @@
 #include <alpenglow/view.h>
 
 #include "atmosphere/bake/table_set.h"
+#include "atmosphere/sky/parts.h"
 #include "atmosphere/sky/sky_slice.h"
 
 namespace alpenglow {
@@ -22,14 +23,6 @@ struct SkyConstants {
 };
 static_assert(sizeof(SkyConstants) == 128, "Vulkan guarantees 128 bytes");
 
-/// What a frame's camera may see: chooses the pipeline.
-struct Visible {
-  bool ground = true;
-  bool disc = true;
-};
-
-/// Conservative, from the cones around the view, the planet and the sun.
-Visible visible(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw);
 /// Fills the constants; everything is computed in double and rounded once.
 SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw);
 /// Ok, or a sentence that names the wrong field.
@@ -56,12 +49,10 @@ struct View {
   Status makeLayout();
   Status makeSet(const VkDescriptorSetLayoutBinding* bindings, uint32_t count);
   Status makePipelines(bool slice, VkPipeline* pipelines);
+  /// A draw for each part, ordered by pipeline.
+  void drawParts(VkCommandBuffer commands, const sky::Parts& parts, const VkOffset2D& corner,
+                 const VkPipeline* pipelines);
   Status checkRecord(const Tables& tables, const SkyDraw& draw, const char* call) const;
-
-  static constexpr uint32_t kVariants = 4;  ///< Ground in view or not, disc in view or not.
-  static uint32_t variant(const sky::Visible& v) {
-    return (v.ground ? 1u : 0u) + (v.disc ? 2u : 0u);
-  }
 
   bake::Resources& resources_;
   engine::Device& device_;
@@ -71,8 +62,8 @@ struct View {
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
-  VkPipeline pipelines_[kVariants] = {};
-  VkPipeline slicePipelines_[kVariants] = {};  ///< Only with a slice.
+  VkPipeline pipelines_[sky::kVariants] = {};
+  VkPipeline slicePipelines_[sky::kVariants] = {};  ///< Only with a slice.
 };
 
 }  // namespace v1

@@ -7,6 +7,7 @@ layout(constant_id = 0) const bool kMiePacked = false;
 layout(constant_id = 1) const bool kFisheye = false;
 layout(constant_id = 2) const bool kGround = true;  // some pixels may see the ground
 layout(constant_id = 3) const bool kSunDisc = true;
+layout(constant_id = 5) const bool kAir = true;
 
 #ifdef ALPENGLOW_SKY_SLICE
 // Light that arrives at this frame's camera, or of the standard solver S at its altitude, for cameras
@@ -116,10 +117,12 @@ void main() {
   vec3 view = viewDirection(visible);
   Ray ray = alpenglowRay(upAltitude.xyz, upAltitude.w, view, sunDiscChord.xyz);
   if (!kGround) ray.hitsGround = false;
+  if (!kAir) ray.inAtmosphere = false;
+  Spectrum light = SPECTRUM(0.0);
 #ifdef ALPENGLOW_SKY_SLICE
-  Spectrum light = sliceTerm(ray, view);
+  if (kAir) light = sliceTerm(ray, view);
 #else
-  Spectrum light = alpenglowSkyRadiance(ray);
+  if (kAir) light = alpenglowSkyRadiance(ray);
 #endif
   if (kGround) light += groundTerm(ray, view);
   if (kSunDisc) light += discTerm(ray, view);

@@ -1,0 +1,53 @@
+// The viewport of a frame, cut into parts by what their pixels may see, so that each is drawn by
+// the cheapest pipeline: a pixel of sky pays for no ground, and one of empty space for no air.
+#pragma once
+
+#include <alpenglow/view.h>
+
+#include <array>
+
+namespace alpenglow::sky {
+
+struct Visible {
+  bool air = true;
+  bool ground = true;  ///< Never without air.
+  bool disc = true;
+  bool operator==(const Visible&) const = default;
+};
+
+/// All that occur, and a number for each.
+inline constexpr Visible kCombinations[] = {{false, false, false}, {true, false, false},
+                                            {true, true, false},   {false, false, true},
+                                            {true, false, true},   {true, true, true}};
+inline constexpr uint32_t kVariants = 6;
+constexpr uint32_t variant(const Visible& v) {
+  return (v.air ? v.ground ? 2u : 1u : 0u) + (v.disc ? 3u : 0u);
+}
+
+/// Of a viewport's pixels, counted from its corner. Conservative, from the cones around them, the
+/// planet, the air and the sun.
+Visible visible(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw,
+                const VkRect2D& area);
+
+struct Part {
+  VkRect2D area;  ///< Counted from the viewport's corner.
+  Visible visible;
+};
+
+/// Parts that together are the viewport, and do not overlap.
+struct Parts {
+  static constexpr uint32_t kSide = 8;  ///< Most columns and rows.
+  std::array<Part, kSide * kSide> parts;
+  uint32_t count = 0;
+};
+Parts cut(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw);
+
+/// Width and height, and the lesser of them, in pixels.
+struct ViewportSize {
+  double width, height, least;
+};
+ViewportSize viewportSize(const SkyDraw& draw);
+/// Of a pixel at the centre of the view, radians.
+double pixelAngle(const ViewDesc& desc, const SkyDraw& draw);
+
+}  // namespace alpenglow::sky
