@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 #include "tests/sky/sky_fixture.h"
 
@@ -162,6 +161,7 @@ struct Look {
   const char* name;
   double altitude, pitch, fov;  ///< Metres, degrees.
   double discRadius;
+  bool skyOnly;
 };
 
 TEST_F(TimingTest, APixelOfMomentsFromASlice) {
@@ -175,14 +175,16 @@ TEST_F(TimingTest, APixelOfMomentsFromASlice) {
   desc.skySlice = nullptr;
   View* unsliced = makeView(desc);
   const Look looks[] = {
-      {"2 m, sky only", 2.0, 60.0, 50.0, 0.0},       {"2 m, sky and sun", 2.0, 60.0, 50.0, 0.27},
-      {"2 m, sky and ground", 2.0, 10.0, 60.0, 0.0}, {"10 km, ground", 1e4, -60.0, 50.0, 0.0},
-      {"400 km, limb", 4e5, -15.0, 50.0, 0.0},       {"36000 km, planet", 3.6e7, -90.0, 20.0, 0.0},
+      {"2 m, sky only", 2.0, 60.0, 50.0, 0.0, true},
+      {"2 m, sky and sun", 2.0, 60.0, 50.0, 0.27, false},
+      {"2 m, sky and ground", 2.0, 10.0, 60.0, 0.0, false},
+      {"10 km, ground", 1e4, -60.0, 50.0, 0.0, false},
+      {"400 km, limb", 4e5, -15.0, 50.0, 0.0, false},
+      {"36000 km, planet", 3.6e7, -90.0, 20.0, 0.0, false},
   };
   double sun[3];
   sunDirection(0.0, 0.0, radians(50.0), 0.2, sun);
   for (const Look& look : looks) {
-    if (std::getenv("TIMING_QUICK") && &look != looks) break;
     SkyDraw draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, look.altitude, 0.2,
                                                radians(look.pitch), 0.0, radians(look.fov)),
                             vec(sun), kExtent);
@@ -197,6 +199,10 @@ TEST_F(TimingTest, APixelOfMomentsFromASlice) {
         "the slice itself %.1f, %.1f ms\n",
         look.name, direct, sliced, fetches, slice,
         slice * 1e-6 * double(kExtent.width) * kExtent.height);
+    if (!look.skyOnly) continue;
+    // Measured: 18 to 21 ns, where two bare fetches take 7 to 9. The goal is 20.
+    EXPECT_LT(sliced, 3.5 * fetches) << look.name;
+    EXPECT_LT(sliced, 0.05 * direct) << look.name;
   }
   destroyTables(tables, device().frame());
 }
