@@ -1,0 +1,159 @@
+// The way out of the atmosphere: no jump at its top nor anywhere between the ground and space.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "tests/sky/sky_fixture.h"
+
+namespace alpenglow::testing {
+namespace {
+
+constexpr double kSuns[] = {40.0, 2.0, -5.0, -10.0};
+
+class PassageTest : public SkyTest {
+ protected:
+  PassageTest() : earth_(preset("earth")) {}
+
+  double top() const { return earth_.topRadius_m - earth_.bottomRadius_m; }
+  double dip(double altitude) const {
+    return std::acos(earth_.bottomRadius_m / (earth_.bottomRadius_m + altitude));
+  }
+
+  /// A ray `below` radians under the horizontal.
+  static ProbeQuery ray(double altitude, double below, double elevation) {
+    ProbeQuery query;
+    query.altitude_m = altitude;
+    query.viewZenith = 0.5 * kPi + below;
+    query.sunZenith = 0.5 * kPi - radians(elevation);
+    query.azimuth = radians(50.0);
+    return query;
+  }
+
+  Parameters earth_;
+};
+
+/// Along a row of answers, all channels of sky and ground together: the largest step, and by how
+/// much one exceeds three times the next steps on both sides; relative to the value, or to `dark`.
+struct Steps {
+  double largest = 0.0, jump = 0.0;
+};
+
+Steps stepsOf(const ProbeAnswer* row, size_t count, double dark) {
+  Steps result;
+  for (uint32_t c = 0; c < kSpectrumSize; ++c) {
+    const auto at = [&](size_t i) { return row[i].skyRadiance[c] + row[i].groundRadiance[c]; };
+    for (size_t i = 2; i + 1 < count; ++i) {
+      EXPECT_TRUE(std::isfinite(at(i)) && at(i) >= 0.0) << i;
+      const double scale = std::max(at(i), dark);
+      const double step = std::abs(at(i) - at(i - 1)) / scale;
+      const double next = std::max(std::abs(at(i - 1) - at(i - 2)), std::abs(at(i + 1) - at(i)));
+      result.largest = std::max(result.largest, step);
+      result.jump = std::max(result.jump, step - 3.0 * next / scale);
+    }
+  }
+  return result;
+}
+
+double brightest(const std::vector<ProbeAnswer>& answers) {
+  double most = 0.0;
+  for (const ProbeAnswer& a : answers)
+    for (uint32_t c = 0; c < kSpectrumSize; ++c)
+      most = std::max(most, a.skyRadiance[c] + a.groundRadiance[c]);
+  return most;
+}
+
+// In steps of 0.1 m through the top, along rays to the ground, past it and away from it.
+TEST_F(PassageTest, NoJumpThroughTheTop) {
+  constexpr size_t kSteps = 101;
+  const double horizon = dip(top());
+  std::vector<double> directions = {radians(90.0),  radians(60.0),  radians(30.0), radians(10.0),
+                                    horizon + 1e-3, horizon - 1e-3, radians(-5.0), radians(-60.0)};
+  // Past the ground, at 10, 30 and 50 km.
+  for (const double lowest : {1e4, 3e4, 5e4})
+    directions.push_back(std::acos((earth_.bottomRadius_m + lowest) / earth_.topRadius_m));
+  for (const double elevation : kSuns) {
+    std::vector<ProbeQuery> queries;
+    for (const double below : directions)
+      for (size_t i = 0; i < kSteps; ++i)
+        queries.push_back(ray(top() + 0.1 * (double(i) - 50.0), below, elevation));
+    const std::vector<ProbeAnswer> answers = probeAll(queries);
+    Steps worst;
+    for (size_t i = 0; i < directions.size(); ++i) {
+      const Steps found = stepsOf(&answers[i * kSteps], kSteps, 1e-3 * brightest(answers));
+      worst.largest = std::max(worst.largest, found.largest);
+      worst.jump = std::max(worst.jump, found.jump);
+    }
+    std::printf("through the top, sun %4.0f: largest step %.1e, jump %.1e\n", elevation,
+                worst.largest, worst.jump);
+    EXPECT_LT(worst.largest, 2e-4) << elevation;
+    EXPECT_LT(worst.jump, 1e-5) << elevation;
+  }
+}
+
+// From 2 m to 10,000 km, each 2 % higher: down, slantwise to the ground, and next to the horizon.
+TEST_F(PassageTest, NoJumpFromTheGroundToSpace) {
+  std::vector<double> altitudes;
+  for (double altitude = 2.0; altitude < 1e7; altitude *= 1.02) altitudes.push_back(altitude);
+  for (const double elevation : kSuns) {
+    std::vector<ProbeQuery> queries;
+    for (const double share : {1.0, 0.5, 0.1, 0.01, -0.003})
+      for (const double altitude : altitudes)
+        queries.push_back(
+            ray(altitude, dip(altitude) + share * (0.5 * kPi - dip(altitude)), elevation));
+    const std::vector<ProbeAnswer> answers = probeAll(queries);
+    Steps worst;
+    for (size_t i = 0; i < queries.size(); i += altitudes.size()) {
+      const Steps found = stepsOf(&answers[i], altitudes.size(), 1e-3 * brightest(answers));
+      worst.largest = std::max(worst.largest, found.largest);
+      worst.jump = std::max(worst.jump, found.jump);
+    }
+    std::printf("to space, sun %4.0f: largest step %.1e, jump %.1e\n", elevation, worst.largest,
+                worst.jump);
+    EXPECT_LT(worst.largest, 0.2) << elevation;
+    EXPECT_LT(worst.jump, 1e-4) << elevation;
+  }
+}
+
+// A slice has other rows on either side of the top; the greatest difference is at its edge, which
+// no row meets from inside. Relative to a pixel, or to a hundredth of the brightest.
+TEST_F(PassageTest, SlicesOfBothSidesShowTheSame) {
+  ViewDesc desc = viewDesc();
+  desc.projection = Projection::Fisheye;
+  desc.skySlice = tables();
+  View* const sliced = makeView(desc);
+  TargetDesc target;
+  target.extent = {64, 64};
+  for (const double elevation : kSuns) {
+    double sun[3];
+    sunDirection(0.0, 0.0, radians(elevation), 0.5, sun);
+    const auto drawn = [&](double altitude) {
+      const SkyDraw draw = makeDraw(
+          cameraFromGeodetic(earth_, 0.0, 0.0, altitude, 0.0, radians(-90.0), 0.0, 2.0 * kPi),
+          vec(sun), target.extent);
+      run([&](VkCommandBuffer commands) {
+        return recordSkySlice(sliced, commands, device().frame(), tables(), draw) == Status::Ok;
+      });
+      return picture(sliced, tables(), draw, target);
+    };
+    const Picture inside = drawn(top() - 0.05), outside = drawn(top() + 0.05);
+    float most = 0.0f;
+    for (size_t i = 0; i < inside.data.size(); ++i)
+      if (i % 4 != 3) most = std::max(most, inside.data[i]);
+    std::vector<double> differences;
+    for (size_t i = 0; i < inside.data.size(); ++i) {
+      const double scale = std::max(inside.data[i], 0.01f * most);
+      if (i % 4 != 3)
+        differences.push_back(std::abs(static_cast<double>(inside.data[i] - outside.data[i])) /
+                              scale);
+    }
+    std::sort(differences.begin(), differences.end());
+    const double p95 = differences[differences.size() * 95 / 100];
+    std::printf("slices 5 cm on either side of the top, sun %4.0f: p95 %.4f, greatest %.4f\n",
+                elevation, p95, differences.back());
+    EXPECT_LT(p95, 1e-3) << elevation;
+    EXPECT_LT(differences.back(), 0.05) << elevation;
+  }
+}
+
+}  // namespace
+}  // namespace alpenglow::testing

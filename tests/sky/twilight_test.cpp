@@ -1,0 +1,157 @@
+// Deep twilight as a long exposure sees it: the sun 6 to 34 degrees below the horizon, radiance
+// times 1e5. No blocks, no steps, no glow that stays; from the tables and from a sky slice.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "tests/sky/sky_fixture.h"
+
+namespace alpenglow::testing {
+namespace {
+
+constexpr double kExposure = 1e5;
+constexpr double kSunAzimuth = 0.7;
+
+/// From the tables, and from a slice.
+using Pair = std::array<Picture, 2>;
+
+class TwilightTest : public SkyTest {
+ protected:
+  static Camera camera(double altitude, double azimuth, double pitch, double roll, double fov) {
+    return cameraFromGeodetic(preset("earth"), 0.3, 0.2, altitude, kSunAzimuth + azimuth, pitch,
+                              roll, fov);
+  }
+
+  static SkyDraw drawOf(const Camera& camera, double elevation, VkExtent2D extent) {
+    double sun[3];
+    sunDirection(0.3, 0.2, radians(elevation), kSunAzimuth, sun);
+    SkyDraw draw = makeDraw(camera, vec(sun), extent);
+    draw.radianceScale = kExposure;
+    return draw;
+  }
+
+  Pair bothPictures(const SkyDraw& draw, Projection projection = Projection::Perspective) {
+    View*& sliced = sliced_[projection];
+    if (sliced == nullptr) {
+      ViewDesc desc = viewDesc();
+      desc.projection = projection;
+      desc.skySlice = tables();
+      sliced = makeView(desc);
+    }
+    run([&](VkCommandBuffer commands) {
+      return recordSkySlice(sliced, commands, device().frame(), tables(), draw) == Status::Ok;
+    });
+    TargetDesc target;
+    target.extent = draw.viewport.extent;
+    return {picture(draw, projection), picture(sliced, tables(), draw, target)};
+  }
+
+ private:
+  std::map<Projection, View*> sliced_;
+};
+
+double brightness(const Picture& picture) {
+  double sum = 0.0;
+  for (size_t i = 0; i < picture.data.size(); ++i)
+    if (i % 4 != 3) sum += static_cast<double>(picture.data[i]);
+  return sum / (3.0 * picture.width * picture.height);
+}
+
+/// Down the columns of a picture: the largest step between neighbours, and by how much one exceeds
+/// three times the next steps on both sides. Relative to the pixel.
+struct Steps {
+  double largest = 0.0, jump = 0.0;
+};
+
+/// Not across the horizon, if that is in the picture at this row.
+Steps stepsOf(const Picture& p, double horizon) {
+  Steps result;
+  for (uint32_t x = 0; x < p.width; ++x) {
+    for (uint32_t y = 2; y + 1 < p.height; ++y) {
+      if (std::abs(y - horizon) < 3.0) continue;
+      for (int c = 0; c < 3; ++c) {
+        const auto at = [&](uint32_t row) { return static_cast<double>(p.at(x, row)[c]); };
+        const double scale = std::max(at(y), 1e-9 * kExposure);
+        const double step = std::abs(at(y) - at(y - 1)) / scale;
+        const double next = std::max(std::abs(at(y - 1) - at(y - 2)), std::abs(at(y + 1) - at(y)));
+        result.largest = std::max(result.largest, step);
+        result.jump = std::max(result.jump, step - 3.0 * next / scale);
+      }
+    }
+  }
+  return result;
+}
+
+constexpr double kFov = radians(16.0);
+constexpr VkExtent2D kColumn = {4, 1024};  ///< A 64th of a degree a pixel.
+
+/// Row of the horizon in an upright column whose centre looks `pitch` high.
+double horizonRow(double altitude, double pitch) {
+  const double bottomRadius = preset("earth").bottomRadius_m;
+  const double dip = std::acos(bottomRadius / (bottomRadius + altitude));
+  return 0.5 * kColumn.height * (1.0 + std::tan(pitch + dip) / std::tan(0.5 * kFov));
+}
+
+// Columns of the sky, upright and along the horizon. Where light falls by a factor of ten in a
+// degree, above the night's edge as an airliner sees it, a 64th of a degree is 20 %; a block's edge
+// would be a step between smaller ones.
+TEST_F(TwilightTest, NoBlocksAndNoStepsAtExposure1e5) {
+  for (const double altitude : {2.0, 1e4}) {
+    for (const double elevation : {-6.0, -9.0, -12.0, -15.0, -18.0}) {
+      Steps worst[2];
+      const auto look = [&](double azimuth, double pitch, double roll, double horizon) {
+        const SkyDraw draw =
+            drawOf(camera(altitude, azimuth, pitch, roll, kFov), elevation, kColumn);
+        const Pair pictures = bothPictures(draw);
+        for (size_t i = 0; i < 2; ++i) {
+          EXPECT_EQ(badValue(pictures[i]), "") << altitude << " m, sun " << elevation;
+          const Steps found = stepsOf(pictures[i], horizon);
+          worst[i].largest = std::max(worst[i].largest, found.largest);
+          worst[i].jump = std::max(worst[i].jump, found.jump);
+        }
+      };
+      for (const double azimuth : {0.0, 40.0, 90.0, 180.0}) {
+        for (const double pitch : {radians(4.0), radians(20.0), radians(82.0)})
+          look(radians(azimuth), pitch, 0.0, horizonRow(altitude, pitch));
+        for (const double pitch : {radians(1.0), radians(10.0)})
+          look(radians(azimuth), pitch, radians(90.0), -100.0);
+      }
+      std::printf("%7.0f m, sun %4.0f: largest step %.3f, jump %.1e; from a slice %.3f, %.1e\n",
+                  altitude, elevation, worst[0].largest, worst[0].jump, worst[1].largest,
+                  worst[1].jump);
+      for (const Steps& found : worst) {
+        EXPECT_LT(found.largest, 0.25) << altitude << " " << elevation;
+        EXPECT_LT(found.jump, 2e-4) << altitude << " " << elevation;
+      }
+    }
+  }
+}
+
+// From the ground twilight darkens by a factor of 2.3 to 3.7 a degree, all the way down; from space
+// the lit limb sinks behind the planet.
+TEST_F(TwilightTest, NoGlowStays) {
+  for (const double altitude : {2.0, 1e4, 4e5}) {
+    double before[2] = {};
+    std::printf("%7.0f m:", altitude);
+    for (double elevation = -6.0; elevation >= -34.0; elevation -= 1.0) {
+      const SkyDraw draw =
+          drawOf(camera(altitude, 0.0, radians(90.0), 0.0, 2.0 * kPi), elevation, {48, 48});
+      const Pair pictures = bothPictures(draw, Projection::Fisheye);
+      for (size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(badValue(pictures[i]), "") << altitude << " m, sun " << elevation;
+        const double now = brightness(pictures[i]);
+        if (elevation < -6.0) {
+          EXPECT_LT(now, before[i] / (altitude < 1e5 ? 2.0 : 1.1)) << altitude << " " << elevation;
+          EXPECT_GT(now, before[i] / (altitude < 1e5 ? 4.0 : 8.0)) << altitude << " " << elevation;
+        }
+        before[i] = now;
+      }
+      if (std::fmod(elevation, 6.0) == 0.0) std::printf(" %.2g", before[0]);
+    }
+    std::printf(" at exposure 1e5, sun -6 to -30\n");
+    for (const double last : before) EXPECT_LT(last, 1e-4);
+  }
+}
+
+}  // namespace
+}  // namespace alpenglow::testing
