@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "tests/sky/sky_fixture.h"
+#include "tests/sky/steps.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -32,24 +33,16 @@ class PassageTest : public SkyTest {
   Parameters earth_;
 };
 
-/// Along a row of answers, all channels of sky and ground together: the largest step, and by how
-/// much one exceeds three times the next steps on both sides; relative to the value, or to `dark`.
-struct Steps {
-  double largest = 0.0, jump = 0.0;
-};
+double light(const ProbeAnswer& answer, uint32_t c) {
+  return answer.skyRadiance[c] + answer.groundRadiance[c];
+}
 
-Steps stepsOf(const ProbeAnswer* row, size_t count, double dark) {
+Steps stepsAlong(const ProbeAnswer* row, size_t count, double dark) {
   Steps result;
   for (uint32_t c = 0; c < kSpectrumSize; ++c) {
-    const auto at = [&](size_t i) { return row[i].skyRadiance[c] + row[i].groundRadiance[c]; };
-    for (size_t i = 2; i + 1 < count; ++i) {
-      EXPECT_TRUE(std::isfinite(at(i)) && at(i) >= 0.0) << i;
-      const double scale = std::max(at(i), dark);
-      const double step = std::abs(at(i) - at(i - 1)) / scale;
-      const double next = std::max(std::abs(at(i - 1) - at(i - 2)), std::abs(at(i + 1) - at(i)));
-      result.largest = std::max(result.largest, step);
-      result.jump = std::max(result.jump, step - 3.0 * next / scale);
-    }
+    for (size_t i = 0; i < count; ++i)
+      EXPECT_TRUE(std::isfinite(light(row[i], c)) && light(row[i], c) >= 0.0) << i;
+    result.add(stepsOf(count, dark, [&](size_t i) { return light(row[i], c); }));
   }
   return result;
 }
@@ -57,8 +50,7 @@ Steps stepsOf(const ProbeAnswer* row, size_t count, double dark) {
 double brightest(const std::vector<ProbeAnswer>& answers) {
   double most = 0.0;
   for (const ProbeAnswer& a : answers)
-    for (uint32_t c = 0; c < kSpectrumSize; ++c)
-      most = std::max(most, a.skyRadiance[c] + a.groundRadiance[c]);
+    for (uint32_t c = 0; c < kSpectrumSize; ++c) most = std::max(most, light(a, c));
   return most;
 }
 
@@ -79,9 +71,7 @@ TEST_F(PassageTest, NoJumpThroughTheTop) {
     const std::vector<ProbeAnswer> answers = probeAll(queries);
     Steps worst;
     for (size_t i = 0; i < directions.size(); ++i) {
-      const Steps found = stepsOf(&answers[i * kSteps], kSteps, 1e-3 * brightest(answers));
-      worst.largest = std::max(worst.largest, found.largest);
-      worst.jump = std::max(worst.jump, found.jump);
+      worst.add(stepsAlong(&answers[i * kSteps], kSteps, 1e-3 * brightest(answers)));
     }
     std::printf("through the top, sun %4.0f: largest step %.1e, jump %.1e\n", elevation,
                 worst.largest, worst.jump);
@@ -103,9 +93,7 @@ TEST_F(PassageTest, NoJumpFromTheGroundToSpace) {
     const std::vector<ProbeAnswer> answers = probeAll(queries);
     Steps worst;
     for (size_t i = 0; i < queries.size(); i += altitudes.size()) {
-      const Steps found = stepsOf(&answers[i], altitudes.size(), 1e-3 * brightest(answers));
-      worst.largest = std::max(worst.largest, found.largest);
-      worst.jump = std::max(worst.jump, found.jump);
+      worst.add(stepsAlong(&answers[i], altitudes.size(), 1e-3 * brightest(answers)));
     }
     std::printf("to space, sun %4.0f: largest step %.1e, jump %.1e\n", elevation, worst.largest,
                 worst.jump);
