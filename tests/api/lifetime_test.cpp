@@ -170,8 +170,8 @@ TEST_F(StandardSkyTest, ResourcesAreCounted) {
   View* views[2] = {};
   for (View*& view : views) ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
   resourceReport(made, &report);
-  EXPECT_EQ(report.pipelines, variantsOfBake + 8);
-  EXPECT_EQ(report.shaderVariants, variantsOfBake + 4);
+  EXPECT_EQ(report.pipelines, variantsOfBake + 12);
+  EXPECT_EQ(report.shaderVariants, variantsOfBake + 6);
   TargetDesc target;
   target.extent = {24, 16};
   picture(views[0], baked, someDraw(), target);
