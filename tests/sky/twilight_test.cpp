@@ -145,5 +145,41 @@ TEST_F(TwilightTest, NoGlowStays) {
   }
 }
 
+// Ray by ray: down to 40 degrees each quarter of a degree is a step into the dark, and below that,
+// where the tables end, what stays is 1e-17 of the sun at most.
+TEST_F(TwilightTest, EachRayDarkensWithTheSun) {
+  constexpr size_t kSuns = 4 * 89;
+  std::vector<ProbeQuery> queries;
+  for (const double altitude : {2.0, 1e4}) {
+    for (const double zenith : {0.0, 30.0, 60.0, 80.0, 88.0}) {
+      for (const double azimuth : {0.0, 90.0, 180.0}) {
+        for (size_t i = 0; i < kSuns; ++i) {
+          ProbeQuery query;
+          query.altitude_m = altitude;
+          query.viewZenith = radians(zenith);
+          query.azimuth = radians(azimuth);
+          query.sunZenith = radians(91.0 + 0.25 * double(i));
+          queries.push_back(query);
+        }
+      }
+    }
+  }
+  const std::vector<ProbeAnswer> answers = probeAll(queries);
+  ASSERT_EQ(answers.size(), queries.size());
+  for (size_t i = 0; i < answers.size(); ++i) {
+    const double depth = queries[i].sunZenith / radians(1.0) - 90.0;
+    const double most = depth < 18.0 ? 1.0 : depth < 30.0 ? 3e-8 : depth < 40.0 ? 2e-13 : 1e-17;
+    for (uint32_t c = 0; c < kSpectrumSize; ++c) {
+      const double now = answers[i].skyRadiance[c];
+      ASSERT_TRUE(now >= 0.0 && now < most) << now << ", sun " << depth << " degrees down";
+      if (i % kSuns != 0 && depth <= 40.0) {
+        ASSERT_LT(now, answers[i - 1].skyRadiance[c])
+            << "sun " << depth << " degrees down, " << queries[i].altitude_m << " m, zenith angle "
+            << queries[i].viewZenith << ", azimuth " << queries[i].azimuth;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace alpenglow::testing
