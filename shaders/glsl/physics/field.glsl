@@ -52,6 +52,16 @@ ALPENGLOW_FN Real2 depthHMu(IN(Medium) m, IN(MomentShape) s, Real2 u) {
                min(sinh(u[0] * asinh(s.depthSharpness)) / s.depthSharpness, REAL(1.0)));
 }
 
+// What the table holds there: the mean extinction along the ray, as the optical depth of a ray as long as the
+// shell is thick. The depth itself goes to 0 at the top with the ray's length, and the interpolation of its
+// logarithm there had the sun 23 % off in air that is dense up to the top.
+ALPENGLOW_FN Spectrum depthAtUnit(IN(Medium) m, IN(MomentShape) s, Real2 u) {
+  Real2 at = depthHMu(m, s, u);
+  Real h = min(at[0], m.thickness * REAL(0.999755859375));  // at the top itself there is no ray
+  Real length_ = distanceToTop(m, h, at[1]);
+  return encodeOpticalDepth(opticalDepthOfSegment(m, h, at[1], length_) * (m.thickness / length_));
+}
+
 ALPENGLOW_FN Real2 depthCoordinate(IN(Medium) m, IN(MomentShape) s, Real h, Real mu) {
   Real2 u = depthUnit(m, s, h, mu);
   return Real2(insetCoordinate(u[0], s.depthMu), insetCoordinate(u[1], s.depthH));

@@ -4,7 +4,8 @@
 
 // Optical depth from h to the top in a direction that rises.
 ALPENGLOW_FN Spectrum depthOfRise(IN(Medium) m, IN(MomentShape) s, Real h, Real mu) {
-  return decodeOpticalDepth(readDepth(depthCoordinate(m, s, h, mu)));
+  return decodeOpticalDepth(readDepth(depthCoordinate(m, s, h, mu))) *
+         (distanceToTop(m, h, mu) / m.thickness);
 }
 
 // Equation 5's exponent towards the top, in any direction that misses the ground; for one that hits it,

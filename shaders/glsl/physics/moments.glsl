@@ -33,8 +33,8 @@ ALPENGLOW_FN NodePoint nodePoint(IN(Medium) m, IN(MomentShape) s, int node) {
 // --- Pass T: optical depth towards the top.
 
 ALPENGLOW_FN Spectrum depthOfTexel(IN(Medium) m, IN(MomentShape) s, int x, int y) {
-  Real2 at = depthHMu(m, s, Real2(unitFromTexel(Real(x), s.depthMu), unitFromTexel(Real(y), s.depthH)));
-  return encodeOpticalDepth(opticalDepthOfSegment(m, at[0], at[1], distanceToTop(m, at[0], at[1])));
+  return depthAtUnit(
+      m, s, Real2(unitFromTexel(Real(x), s.depthMu), unitFromTexel(Real(y), s.depthH)));
 }
 
 // --- Pass Q: quadrature in zenith angle.
