@@ -55,27 +55,50 @@ inline BothRays bothRays(const physics_f64::Ray& exact, double length) {
           length};
 }
 
-/// Both precisions of an atmosphere.
-class BothLights {
- public:
-  explicit BothLights(const Parameters& parameters, const MomentSettings& settings = {},
-                      Quality quality = Quality::Default)
-      : medium(makeMediumF64(parameters)),
-        inDouble(medium, bake::makeMomentShapeF64(parameters, desc(parameters, settings, quality))),
-        inFloat(makeMediumF32(parameters),
-                bake::makeMomentShapeF32(parameters, desc(parameters, settings, quality))) {}
+/// Finite, not negative, transmittance in [0, 1].
+inline bool isSound(const light_f32::DirectLight::Light& light) {
+  for (int c = 0; c < 3; ++c) {
+    const float t = light.transmittance[c], scattered[] = {light.rayleigh[c], light.mie[c]};
+    if (!(t >= 0.0f && t <= 1.0f)) return false;
+    for (float s : scattered)
+      if (!(s >= 0.0f && std::isfinite(s))) return false;
+  }
+  return true;
+}
+
+/// Along a ray the light that is scattered towards its beginning without phase functions, the
+/// integral of T beta_s T_sun, is at most the integral of T (beta_s + beta_a), which is 1 - T: no
+/// more can be scattered out of a beam than it loses. So their sum is at most what comes in, 1.
+inline bool isBalanced(const light_f32::DirectLight::Light& light) {
+  for (int c = 0; c < 3; ++c)
+    if (!(light.transmittance[c] + light.rayleigh[c] + light.mie[c] <= 1.02f)) return false;
+  return true;
+}
+
+inline TableDesc tableDesc(const Parameters& parameters, const MomentSettings& settings) {
+  TableDesc desc;
+  desc.moments = momentSettings(parameters, Quality::Default, settings);
+  return desc;
+}
+
+inline light_f64::DirectLight lightsInDouble(const Parameters& p,
+                                             const MomentSettings& settings = {}) {
+  return {makeMediumF64(p), bake::makeMomentShapeF64(p, tableDesc(p, settings))};
+}
+
+inline light_f32::DirectLight lightsInFloat(const Parameters& p,
+                                            const MomentSettings& settings = {}) {
+  return {makeMediumF32(p), bake::makeMomentShapeF32(p, tableDesc(p, settings))};
+}
+
+/// Both precisions of an atmosphere, as the default quality has it.
+struct BothLights {
+  explicit BothLights(const Parameters& p)
+      : medium(makeMediumF64(p)), inDouble(lightsInDouble(p)), inFloat(lightsInFloat(p)) {}
 
   physics_f64::Medium medium;
   light_f64::DirectLight inDouble;
   light_f32::DirectLight inFloat;
-
- private:
-  static TableDesc desc(const Parameters& parameters, const MomentSettings& settings,
-                        Quality quality) {
-    TableDesc result;
-    result.moments = momentSettings(parameters, quality, settings);
-    return result;
-  }
 };
 
 }  // namespace alpenglow::test
