@@ -31,7 +31,7 @@ ProbeQuery query(double altitude_m, double viewZenith_deg, double sunZenith_deg,
 struct Errors {
   double rounding = 0.0;       ///< Of light, float against double.
   double quadrature = 0.0;     ///< Of light, double against the reference.
-  double transmittance = 0.0;  ///< Float against double.
+  double transmittance = 0.0;  ///< Float against the reference.
 
   void print(const char* name) const {
     std::printf("%-34s float %8.4f %%  quadrature %8.4f %%  T %.5f %%\n", name, 100 * rounding,
@@ -50,35 +50,32 @@ class HardCase {
 
   const physics_f64::Medium& medium() const { return lights_.medium; }
 
-  /// The ray of a query, and against the reference.
+  /// The ray of a query: float against double, and both against the reference.
   void add(const ProbeQuery& query) {
     const ResolvedQuery resolved = resolveQuery(lights_.medium, query);
     if (resolved.empty) return;
-    const light_f64::Spectrum sky = add(bothRays(resolved.ray, resolved.length));
-    const ReferenceAnswer truth =
-        reference::singleScattering(lights_.medium, query, reference::kRelativeTolerance);
-    for (int c = 0; c < 3; ++c)
-      errors.quadrature = std::max(
-          errors.quadrature,
-          relative(sky[c], truth.value.skyRadiance[static_cast<uint32_t>(c)], kLeastLight));
-  }
-
-  /// Float against double; the double's radiance is returned.
-  light_f64::Spectrum add(const BothRays& ray) {
-    const auto length = static_cast<float>(ray.length);
+    const BothRays ray = bothRays(resolved.ray, resolved.length);
     const light_f64::DirectLight::Light exact = lights_.inDouble.along(ray.exact, ray.length);
-    const light_f32::DirectLight::Light light = lights_.inFloat.along(ray.rounded, length);
+    const light_f32::DirectLight::Light light = along(ray);
     const light_f64::Spectrum wanted = lights_.inDouble.radiance(exact, ray.exact.nu);
     const light_f32::Spectrum got = lights_.inFloat.radiance(light, ray.rounded.nu);
-    for (int c = 0; c < 3; ++c) {
-      EXPECT_GE(got[c], 0.0f);
-      EXPECT_GE(light.transmittance[c], 0.0f);
-      EXPECT_LE(light.transmittance[c], 1.0f);
-      errors.rounding = std::max(errors.rounding, relative(got[c], wanted[c], kLeastLight));
-      errors.transmittance = std::max(
-          errors.transmittance, relative(light.transmittance[c], exact.transmittance[c], 1e-3));
+    const ProbeAnswer truth =
+        reference::singleScattering(lights_.medium, query, reference::kRelativeTolerance).value;
+    const auto add = [](double* greatest, double error) { *greatest = std::max(*greatest, error); };
+    for (uint32_t i = 0; i < kSpectrumSize; ++i) {
+      const auto c = static_cast<int>(i);
+      add(&errors.rounding, relative(got[c], wanted[c], kLeastLight));
+      add(&errors.quadrature, relative(wanted[c], truth.skyRadiance[i], kLeastLight));
+      add(&errors.transmittance, relative(light.transmittance[c], truth.transmittance[i], 1e-3));
     }
-    return wanted;
+  }
+
+  /// In float, and sound.
+  light_f32::DirectLight::Light along(const BothRays& ray) {
+    const auto light = lights_.inFloat.along(ray.rounded, static_cast<float>(ray.length));
+    EXPECT_TRUE(isSound(light) && isBalanced(light))
+        << ray.exact.h << " " << ray.exact.mu << " " << ray.exact.muS;
+    return light;
   }
 
   Errors errors;
@@ -100,41 +97,47 @@ double horizonZenith(const physics_f64::Medium& m, double h) {
   return std::acos(physics_f64::horizonMu(m, h)) / kDegree;
 }
 
+/// Each prints its own greatest errors.
+constexpr const char* kPresets[] = {"earth", "earth-hazy", "mars"};
 constexpr double kSuns[] = {0, 30, 75, 85, 89, 90, 91, 95, 100, 108};
 constexpr double kHeights[] = {0.1, 2.0, 1e3, 1e4, 59.9e3};
 
 TEST(HardCases, GrazingRays) {
-  for (const char* name : {"earth", "earth-hazy", "mars"}) {
+  for (const char* name : kPresets) {
     HardCase hard(preset(name));
     for (double h : kHeights)
       for (double off : {-0.05, -0.005, 0.0, 0.005, 0.05})
         for (double sun : kSuns)
           for (double azimuth : {0.0, 90.0, 180.0})
             hard.add(query(h, horizonZenith(hard.medium(), h) - off, sun, azimuth));
-    expectBelow(hard, (std::string("grazing rays, ") + name).c_str(), 1.5e-3, 1.5, 2e-3);
+    expectBelow(hard, (std::string("grazing rays, ") + name).c_str(), 1.5e-3, 1.5, 1.5e-3);
   }
 }
 
 TEST(HardCases, TheGroundAndTheTopAndAFloatStepBesideThem) {
-  HardCase hard(preset("earth"));
-  const auto thickness = static_cast<float>(hard.medium().thickness);
-  for (float h : {0.0f, std::nextafter(0.0f, 1.0f), 1e-30f, 1e-3f, std::nextafter(thickness, 0.0f),
-                  thickness, std::nextafter(thickness, 1e9f)})
-    for (double view : {0.0, 60.0, 89.999, 90.0, 90.001, 97.0, 120.0, 180.0})
-      for (double sun : kSuns) hard.add(query(h, view, sun, 30.0));
-  expectBelow(hard, "r at Rg, Rt and a step beside", 1e-3, 0.8, 1e-3);
+  for (const char* name : kPresets) {
+    HardCase hard(preset(name));
+    const auto thickness = static_cast<float>(hard.medium().thickness);
+    for (float h : {0.0f, std::nextafter(0.0f, 1.0f), 1e-30f, 1e-3f,
+                    std::nextafter(thickness, 0.0f), thickness, std::nextafter(thickness, 1e9f)})
+      for (double view : {0.0, 60.0, 89.999, 90.0, 90.001, 97.0, 120.0, 180.0})
+        for (double sun : kSuns) hard.add(query(h, view, sun, 30.0));
+    expectBelow(hard, (std::string("r at Rg, Rt and beside, ") + name).c_str(), 7e-4, 0.7, 4e-4);
+  }
 }
 
 TEST(HardCases, CosinesOfOne) {
-  HardCase hard(preset("earth"));
-  for (double h : {0.0, 2.0, 1e4, 6e4, 4e5, 3.6e7})
-    for (double view : {0.0, 180.0})
-      for (double sun : {0.0, 1e-5, 90.0, 180.0}) hard.add(query(h, view, sun, 0.0));
-  expectBelow(hard, "mu, mu_s, nu at +-1", 1e-3, 0.6, 1e-4);
+  for (const char* name : kPresets) {
+    HardCase hard(preset(name));
+    for (double h : {0.0, 2.0, 1e4, 6e4, 4e5, 3.6e7})
+      for (double view : {0.0, 180.0})
+        for (double sun : {0.0, 1e-5, 90.0, 180.0}) hard.add(query(h, view, sun, 0.0));
+    expectBelow(hard, (std::string("mu, mu_s, nu at +-1, ") + name).c_str(), 3e-4, 0.5, 2e-5);
+  }
 }
 
 TEST(HardCases, ViewAtTheSunAndOpposite) {
-  for (const char* name : {"earth", "earth-hazy"}) {
+  for (const char* name : kPresets) {
     HardCase hard(preset(name));
     for (double h : {0.0, 2.0, 1e4, 59.9e3})
       // At the horizon a ray away from the sun lies in the shadow's edge with all its length.
@@ -143,7 +146,7 @@ TEST(HardCases, ViewAtTheSunAndOpposite) {
           hard.add(query(h, sun + off, sun, 0.0));
           hard.add(query(h, 180.0 - sun - off, sun, 180.0));
         }
-    expectBelow(hard, (std::string("at the sun and opposite, ") + name).c_str(), 0.02, 0.5, 1e-3);
+    expectBelow(hard, (std::string("at the sun and opposite, ") + name).c_str(), 1.5e-3, 0.2, 3e-4);
   }
 }
 
@@ -157,18 +160,43 @@ TEST(HardCases, ShortSegments) {
           q.distance_m = length;
           hard.add(q);
         }
-  expectBelow(hard, "segments of 1 mm to 10 km", 1e-3, 0.1, 1e-3);
+  expectBelow(hard, "segments of 1 mm to 10 km", 6e-4, 0.06, 5e-5);
 }
 
 TEST(HardCases, SunAtTheTerminator) {
-  HardCase hard(preset("earth"));
-  for (double h : kHeights) {
-    const double edge = horizonZenith(hard.medium(), h);
-    for (double off : {-1e-3, -1e-6, 0.0, 1e-6, 1e-3})
-      for (double view : {0.0, 80.0, 89.0, 93.0})
-        for (double azimuth : {0.0, 90.0, 180.0}) hard.add(query(h, view, edge + off, azimuth));
+  for (const char* name : kPresets) {
+    HardCase hard(preset(name));
+    for (double h : kHeights) {
+      const double edge = horizonZenith(hard.medium(), h);
+      for (double off : {-1e-3, -1e-6, 0.0, 1e-6, 1e-3})
+        for (double view : {0.0, 80.0, 89.0, 93.0})
+          for (double azimuth : {0.0, 90.0, 180.0}) hard.add(query(h, view, edge + off, azimuth));
+    }
+    expectBelow(hard, (std::string("sun at the terminator, ") + name).c_str(), 0.04, 2.2, 1.5e-4);
   }
-  expectBelow(hard, "sun at the terminator", 0.05, 2, 1e-3);
+}
+
+// Towards a sun exactly at the horizon, and exactly away from it, the whole ray lies in the edge of
+// the planet's shadow. What is lit of it is for rounding to say; it is no more than all.
+TEST(HardCases, RaysInTheShadowsEdge) {
+  for (const char* name : kPresets) {
+    HardCase hard(preset(name));
+    const auto light = [&](double h, double view, double sun, double azimuth) {
+      const ResolvedQuery resolved = resolveQuery(hard.medium(), query(h, view, sun, azimuth));
+      return hard.along(bothRays(resolved.ray, resolved.length));
+    };
+    for (double h : {0.0, 1e-3, 2.0, 1e3, 1e4, 59.9e3}) {
+      const double edge = horizonZenith(hard.medium(), h), back = 180.0 - edge;
+      const auto towards = light(h, edge, edge, 0.0), litTowards = light(h, edge, edge - 0.02, 0.0);
+      const auto away = light(h, back, edge, 180.0), litAway = light(h, back, edge - 0.02, 180.0);
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_LE(towards.rayleigh[c], 1.02f * litTowards.rayleigh[c]) << name << " " << h;
+        EXPECT_LE(towards.mie[c], 1.02f * litTowards.mie[c]) << name << " " << h;
+        EXPECT_LE(away.rayleigh[c], 1.02f * litAway.rayleigh[c]) << name << " " << h;
+        EXPECT_LE(away.mie[c], 1.02f * litAway.mie[c]) << name << " " << h;
+      }
+    }
+  }
 }
 
 // Air that does not thin out: the table of optical depths must not end in darkness at the top.
@@ -227,7 +255,7 @@ TEST(HardCases, NarrowPeaks) {
       hard.add(query(2.0, 60.0 + off, 60.0, 0.0));
       hard.add(query(2.0, 180.0 - 91.0 - off, 91.0, 180.0));
     }
-    expectBelow(hard, g > 0 ? "g = 0.99" : "g = -0.99", 0.07, 0.8, 1e-3);
+    expectBelow(hard, g > 0 ? "g = 0.99" : "g = -0.99", 0.06, 0.7, 7e-4);
   }
 }
 
@@ -243,9 +271,9 @@ TEST(HardCases, ScaleHeights) {
       p.mie.extinction_per_m[i] *= aerosols;
     }
     if (height < 1e3) {
-      expectAllAround(p, "scale heights of 100 m", 0.01, 3, 0.03);
+      expectAllAround(p, "scale heights of 100 m", 0.006, 2.2, 0.025);
     } else {
-      expectAllAround(p, "scale heights of 50 km", 1e-3, 0.7, 1e-3);
+      expectAllAround(p, "scale heights of 50 km", 4e-4, 0.55, 1e-4);
     }
   }
 }
@@ -262,7 +290,7 @@ TEST(HardCases, OpticalDepths) {
     }
     char name[64];
     std::snprintf(name, sizeof name, "optical depth %g", depth);
-    expectAllAround(p, name, 2e-3, depth > 1.0 ? 14 : 0.01, 1e-3);
+    expectAllAround(p, name, 1.5e-3, depth > 1.0 ? 12 : 0.007, 1e-5);
   }
 }
 
@@ -270,9 +298,9 @@ TEST(HardCases, Planets) {
   for (double radius : {10e3, 1e8}) {
     Parameters p = earthOfRadius(radius);
     if (radius < 1e6) {
-      expectAllAround(p, "planet of 10 km", 1e-3, 0.03, 1e-3);
+      expectAllAround(p, "planet of 10 km", 1e-3, 0.025, 4e-4);
     } else {
-      expectAllAround(p, "planet of 100,000 km", 1.5e-3, 3.5, 1e-3);
+      expectAllAround(p, "planet of 100,000 km", 1.5e-3, 3, 1.2e-3);
     }
   }
   // Its air as thin as its size.
@@ -287,7 +315,7 @@ TEST(HardCases, Planets) {
     p.mie.scattering_per_m[i] *= 600.0;
     p.mie.extinction_per_m[i] *= 600.0;
   }
-  expectAllAround(p, "planet of 10 km, air of 100 m", 1e-3, 0.2, 2e-3);
+  expectAllAround(p, "planet of 10 km, air of 100 m", 5e-4, 0.13, 1.1e-3);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <glm/gtc/packing.hpp>
 #include <vector>
 
 #include "atmosphere/reference/optical_depth.h"
@@ -76,6 +77,16 @@ TYPED_TEST(OpticalDepth, ShortSegmentsKeepTheirDigits) {
           exactMedium, {2.0, static_cast<double>(static_cast<Real>(mu)), d}, {1e-12, 0.0});
       EXPECT_NEAR(value, exact.value[2], 2e-6 * exact.value[2]) << mu << " " << d;
     }
+  }
+}
+
+TEST(OpticalDepthInFloat, HalfFloatsOfTheLogarithmKeepTransmittance) {
+  // Near 11.5, the logarithm of depth 1, half floats have steps of 2^-7.
+  for (double depth = 1e-6; depth < 50.0; depth *= 1.01) {
+    const auto stored = physics_f32::encodeOpticalDepth(glm::vec3(static_cast<float>(depth)));
+    const glm::vec3 half(glm::unpackHalf1x16(glm::packHalf1x16(stored[0])));
+    const double transmittance = std::exp(-double(physics_f32::decodeOpticalDepth(half)[0]));
+    EXPECT_NEAR(transmittance, std::exp(-depth), 1.5e-3) << depth;
   }
 }
 
