@@ -83,14 +83,16 @@ struct SkyDraw {
 /// recordSky of the same tables, camera position and sun direction that follows in recording order
 /// reads it; any other reads the tables. InvalidArgument without ViewDesc::skySlice, and for tables
 /// of another shape. With Solver::Standard nothing is recorded for a camera outside the atmosphere,
-/// and the picture is that of the tables; with Moments it is interpolated between the slice's 64 x
-/// 160 rays. Clobbers: compute pipeline, sets 0 and 1, push constants.
+/// and the picture is that of the tables; with Moments it is interpolated between the rays of the
+/// slice, 64 x 160 inside the atmosphere and 128 x 160 outside, and off by what
+/// docs/stability.md says. Clobbers: compute pipeline, sets 0 and 1, push constants.
 Status recordSkySlice(View* view, VkCommandBuffer commands, const FrameInfo& frame,
                       const Tables* tables, const SkyDraw& draw);
 
-/// Records one full-screen draw of the viewport inside the host's rendering scope, with dynamic
-/// viewport and scissor. The tables must be ready. Clobbers: graphics pipeline, sets 0 and 1, push
-/// constants, viewport, scissor.
+/// Draws the viewport inside the host's rendering scope, with dynamic viewport and scissor: a few
+/// draws, at most 64, of rectangles that together are the viewport, each with the pipeline for what
+/// its pixels may see of air, ground and sun. The tables must be ready. Clobbers: graphics
+/// pipeline, sets 0 and 1, push constants, viewport, scissor.
 Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame, const Tables* tables,
                  const SkyDraw& draw);
 
