@@ -159,7 +159,7 @@ class Builder {
     plan_.tables.push_back({TableId::OrderSource, orderSource_});
 
     Stage rules = stage(ALPENGLOW_SHADER(kMomentRules), rings_ * kFineRings, 2,
-                        6 * kFineRings * (c_.ringsSky + c_.ringsGround));
+                        6 * kFineRings * rings_);
     rules.outputs = {{rules_}};
     plan_.addPass(plan_.addStage(rules), "Q", 0);
 

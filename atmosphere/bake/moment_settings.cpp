@@ -12,9 +12,9 @@ namespace {
 // ringsLimb, ringsGround; azimuths, degree; sourceGamma, sourcePsi; solverPanels, viewPanels.
 constexpr MomentSettings kLevels[] = {{128, 64, 10, 28, 8, 4, 5, 8, 8, 24, 12, 4, 4},
                                       {192, 96, 12, 40, 10, 5, 6, 10, 10, 32, 16, 4, 5},
-                                      {256, 128, 18, 60, 14, 6, 8, 14, 14, 40, 24, 5, 6},
+                                      {256, 128, 15, 52, 12, 5, 6, 12, 14, 40, 24, 4, 6},
                                       {384, 192, 22, 84, 18, 8, 10, 18, 18, 56, 32, 6, 8},
-                                      {512, 256, 28, 112, 24, 10, 14, 24, 24, 64, 40, 8, 12}};
+                                      {512, 256, 28, 112, 24, 10, 14, 24, 24, 60, 32, 8, 12}};
 
 // Zenith optical depth of what scatters, in the channel where it is greatest.
 double depthOfMolecules(const Parameters& p) {
@@ -46,18 +46,16 @@ uint32_t depthClass(const Parameters& p) {
   return result;
 }
 
-// Four classes by how narrow the aerosols' forward peak is. What its finer directions take, coarser
-// azimuths of the sources give back: default tables stay below 12 MB.
+// Four classes by how narrow the aerosols' forward peak is.
 struct PeakClass {
   double asymmetry;                                            ///< Up to this.
   uint32_t degree, azimuths, ringsSky, sourceGamma, nodesMuS;  ///< Added to the level's.
-  uint32_t sourcePsiSixths;                                    ///< Times the level's, over 6.
   double taper;                                                ///< MomentShape::taper.
 };
-constexpr PeakClass kPeakClasses[] = {{0.80, 0, 0, 0, 0, 0, 6, 0.0},
-                                      {0.88, 8, 6, 2, 12, 8, 5, 0.0},
-                                      {0.95, 33, 18, 12, 16, 4, 5, 4.0},
-                                      {1.00, 33, 18, 16, 16, 4, 5, 4.0}};
+constexpr PeakClass kPeakClasses[] = {{0.80, 0, 0, 0, 0, 0, 0.0},
+                                      {0.88, 8, 8, 4, 12, 16, 0.0},
+                                      {0.95, 33, 20, 14, 16, 12, 4.0},
+                                      {1.00, 33, 20, 18, 16, 12, 4.0}};
 
 const PeakClass& peakClass(const Parameters& p) {
   double asymmetry = p.mie.present ? std::abs(p.mie.asymmetry) : 0.0;
@@ -104,7 +102,6 @@ MomentSettings momentSettings(const Parameters& parameters, Quality quality,
   result.ringsSky += peak.ringsSky;
   result.sourceGamma += peak.sourceGamma;
   result.nodesMuS += peak.nodesMuS;
-  result.sourcePsi = result.sourcePsi * peak.sourcePsiSixths / 6;
   result.solverPanels += panels;
   result.viewPanels += panels;
   const uint32_t* given = &custom.depthMu;

@@ -92,9 +92,10 @@ constexpr bool isOrderTable(TableId id) { return id >= TableId::OrderMoments; }
 /// `desc` is completed; `finest` is the format of tables that differences are taken of.
 SolverPlan standardPlan(const Parameters& parameters, const TableDesc& desc, TableFormat finest);
 
-/// The moment solver: T; the rules Q and Legendre functions Y; then for each order n = 1 ... N - 1
-/// its light on rays L n, in modes F n, in harmonics M n, and what comes of it: H n, the field N n,
-/// and the source J n + 1; last the sums of both, with their tail. `desc` is completed.
+/// The moment solver: T; the rules Q, Legendre functions Y and rotations W; then for each order
+/// n = 1 ... N - 1 its light on rays L n, in modes F n, in harmonics M n, about the sun R n, and
+/// what comes of it: modes H n, the field N n and between its nodes I n, the source J n + 1; last
+/// the sums of both, with their tail. `desc` is completed.
 SolverPlan momentPlan(const Parameters& parameters, const TableDesc& desc);
 
 VkFormat vulkanFormat(TableFormat format);

@@ -71,7 +71,7 @@ class Solver {
 #include "shaders/glsl/physics/node_interpolation.glsl"
 
   NodeField field(int node, bool first) { return fieldOfNode(medium_, shape_, node, first); }
-  /// Texel x of a node, over `unit` (see sourceUnit).
+  /// Texel x of a node, over `unit` (see sourceNorm).
   Spectrum source(int x, int node, Spectrum mean) {
     return sourceOfTexel(shape_, x, node) / sourceNorm(shape_, x, mean);
   }

@@ -17,19 +17,19 @@ namespace {
 using namespace physics_f32;             // NOLINT: as the text has it
 using Spectrum = physics_f32::Spectrum;  // not the public one
 
-/// One layer of 8 x 5 nodes.
+/// One layer of nodes.
 class Nodes {
  public:
   static constexpr int kMuS = 8, kR = 5;
 
   template <class Function>
-  explicit Nodes(Function&& function) {
-    shape_.nodesMuS = kMuS;
-    shape_.nodesR = kR;
-    shape_.fieldMuS = static_cast<float>(fieldTexels(kMuS));
-    shape_.fieldR = static_cast<float>(fieldTexels(kR));
-    for (int y = 0; y < kR; ++y)
-      for (int x = 0; x < kMuS; ++x)
+  explicit Nodes(Function&& function, int muS = kMuS, int r = kR) {
+    shape_.nodesMuS = static_cast<float>(muS);
+    shape_.nodesR = static_cast<float>(r);
+    shape_.fieldMuS = static_cast<float>(fieldTexels(static_cast<uint32_t>(muS)));
+    shape_.fieldR = static_cast<float>(fieldTexels(static_cast<uint32_t>(r)));
+    for (int y = 0; y < r; ++y)
+      for (int x = 0; x < muS; ++x)
         values_.push_back(Spectrum(function(static_cast<float>(x), static_cast<float>(y))));
   }
 
@@ -37,7 +37,9 @@ class Nodes {
   float node(int x, int y) const { return values_[static_cast<size_t>(x + kMuS * y)][0]; }
 
  private:
-  Spectrum fetchNode(int x, int y) const { return values_[static_cast<size_t>(x + kMuS * y)]; }
+  Spectrum fetchNode(int x, int y) const {
+    return values_[static_cast<size_t>(x + static_cast<int>(shape_.nodesMuS) * y)];
+  }
 
 #include "shaders/glsl/physics/node_interpolation.glsl"
 
@@ -68,6 +70,15 @@ TEST(NodeInterpolation, ParabolasAreExactToTheEnds) {
       const float exact = parabola(static_cast<float>(x) / kStep, static_cast<float>(y) / kStep);
       EXPECT_NEAR(nodes.texel(x, y), exact, 1e-4f) << x << " " << y;
     }
+}
+
+TEST(NodeInterpolation, TwoNodesAreJoinedByALine) {
+  Nodes nodes([](float x, float y) { return 2.0f * x - 5.0f * y; }, 2, 2);
+  for (int y = 0; y <= kStep; ++y)
+    for (int x = 0; x <= kStep; ++x)
+      EXPECT_NEAR(nodes.texel(x, y),
+                  (2.0f * static_cast<float>(x) - 5.0f * static_cast<float>(y)) / kStep, 1e-5f)
+          << x << " " << y;
 }
 
 // Logarithms of light that falls off, ever faster, to darkness within one cell.

@@ -240,7 +240,7 @@ TEST_F(SweepTest, SmallTablesMakeNoLight) {
 }
 
 // Thick air over a white ground: light leaves it after hundreds of events. The solver goes on from
-// its 18th order by a geometric series, and that lacks 9 % here. With 300 orders 2 % are missing.
+// its 18th order by a geometric series, and that lacks 9 % here. With 300 orders 3 % are missing.
 TEST_F(SweepTest, ThickWhiteAirTakesManyOrders) {
   Parameters p = preset("earth");
   p.rayleigh.scattering_per_m = {{3.6 / p.rayleigh.scaleHeight_m, 1.0 / p.rayleigh.scaleHeight_m,

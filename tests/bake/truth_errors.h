@@ -1,6 +1,7 @@
 // Errors of a solver's tables against the kept truth, by sun band.
 #pragma once
 
+#include <cmath>
 #include <map>
 
 #include "tests/bake/bake_fixture.h"
@@ -21,6 +22,9 @@ struct TruthErrors {
   double most(truth::Band band) const { return truth::percentile(total.at(band), 100); }
 };
 
+/// The greater of two; a NaN is the worst of all.
+inline double worse(double a, double b) { return b <= a ? a : b; }
+
 /// Device tests that compare with the truth.
 class TruthTest : public BakeTest {
  protected:
@@ -37,13 +41,14 @@ inline TruthErrors TruthTest::errorsOf(const truth::TruthSet& set, Tables* table
     const truth::TruthQuery& query = set.queries[i];
     const truth::AnswerError error = truth::errorOf(query, answers[i]);
     const truth::AnswerError noise = truth::truthError(query);
-    result.transmittance = std::max(result.transmittance, error.transmittance);
-    result.direct = std::max(result.direct, error.direct);
+    result.transmittance = worse(result.transmittance, error.transmittance);
+    result.direct = worse(result.direct, error.direct);
     if (!query.query.irradiance) {
+      EXPECT_TRUE(std::isfinite(error.total)) << query.id;
       result.total[query.band].push_back(error.total);
       result.noise[query.band].push_back(noise.total);
     } else if (query.band <= truth::Band::Low) {
-      result.irradiance = std::max(result.irradiance, error.skyIrradiance);
+      result.irradiance = worse(result.irradiance, error.skyIrradiance);
       if (query.query.altitude_m == 0.0)
         result.groundIrradiance =
             std::max(result.groundIrradiance, error.skyIrradiance - 2.0 * noise.skyIrradiance);

@@ -28,6 +28,7 @@ Steps stepsOf(size_t count, double dark, At at) {
     const double step = std::abs(at(i) - at(i - 1));
     const double next =
         std::max<double>(std::abs(at(i - 1) - at(i - 2)), std::abs(at(i + 1) - at(i)));
+    if (!std::isfinite(step)) return {1e30, 1e30};
     result.largest = std::max(result.largest, step / scale);
     result.jump = std::max(result.jump, (step - 3.0 * next) / scale);
   }

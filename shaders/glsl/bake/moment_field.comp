@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Pass "N n": mean radiance, second moments and irradiance of order n: as lookups read them, plain, and
+// Pass "N n": mean radiance, second moments and irradiance of order n: encoded, plain, and
 // summed up over the orders. An invocation makes the five layers of a node.
 #include "moment_common.glsl"
 

@@ -16,7 +16,7 @@ struct MomentShape {
   Real sourceSharpness;    // c: u_gamma = asinh(c gamma / pi) / asinh(c)
   Real peakAsymmetry;      // of the shape G(nu) that the sources are stored relative to
   Real peakShare;
-  Real ringsSky, ringsLimb, ringsGround;  // of incoming light, see ringMu
+  Real ringsSky, ringsLimb, ringsGround;  // of incoming light, see makeRing
   Real azimuths;
   Real degree;             // of the spherical harmonics
   Real taper;              // of the highest ones, where a narrow peak would ring
@@ -73,8 +73,8 @@ ALPENGLOW_FN Real2 depthCoordinate(IN(Medium) m, IN(MomentShape) s, Real h, Real
 // N, and ln E.
 ALPENGLOW_FN Real momentLayers() { return REAL(5.0); }
 
-// Below this a mean radiance or irradiance is dark: its logarithm is cut here, some 25 orders of magnitude
-// under a starlit night (per unit solar irradiance).
+// Below this a mean radiance or irradiance is dark: its logarithm is cut here, far under a starlit night
+// (per unit solar irradiance).
 ALPENGLOW_FN Real darkness() { return REAL(1e-30); }
 
 // The highest node: a bit below the top, where the light from above has gone to nothing, and its logarithm

@@ -4,7 +4,7 @@
 // multiplied with the coefficients of the aerosols' phase function, and put together again as the source of
 // the next order (H, J). What molecules scatter needs second moments only (N), which the next order reads from
 // a finer table (I). The includer defines, besides the reads of field_lookup.glsl:
-//   Spectrum fetchRadiance(int x, int y), fetchRadianceMie(...), fetchRadianceGround(...)   pass L
+//   Spectrum fetchRadiance(int x, int y), fetchRadianceMie(...), fetchRadianceGround(...)   pass F
 //   Spectrum fetchModes(int x, int y), fetchMoments(int x, int y), fetchSourceModes(int x, int y)
 //   Spectrum fetchNode(int x, int y)                                                        pass I
 //   Real2 fetchRule(int x, int y); Real fetchLegendre(int x, int y), fetchRotation(int x, int y)

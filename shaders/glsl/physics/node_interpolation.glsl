@@ -20,15 +20,21 @@ ALPENGLOW_FN Spectrum cubic(Spectrum before, Spectrum a, Spectrum b, Spectrum af
                                 t * (slopeA + slopeB - REAL(2.0) * rise)));
 }
 
-// Along mu_s at altitude node y; beyond the ends a parabola goes on.
+// What lies beyond the first and the last of a row of values: a parabola goes on through three of them, a
+// line through two.
+ALPENGLOW_FN Spectrum beyond(Spectrum end, Spectrum next, Spectrum third, bool line) {
+  return line ? REAL(2.0) * end - next : REAL(3.0) * (end - next) + third;
+}
+
+// Along mu_s at altitude node y.
 ALPENGLOW_FN Spectrum cubicAlongMuS(int lower, int last, Real t, int y) {
   Spectrum a = fetchNode(lower, y);
   Spectrum b = fetchNode(lower + 1, y);
   Spectrum before = fetchNode(max(lower - 1, 0), y);
   Spectrum after = fetchNode(min(lower + 2, last), y);
-  before = lower > 0 ? before : REAL(3.0) * (a - b) + after;
-  after = lower + 1 < last ? after : REAL(3.0) * (b - a) + before;
-  return cubic(before, a, b, after, t);
+  Spectrum first = lower > 0 ? before : beyond(a, b, after, last == 1);
+  Spectrum fourth = lower + 1 < last ? after : beyond(b, a, before, last == 1);
+  return cubic(first, a, b, fourth, t);
 }
 
 // Texel (x, y) of one layer, whose first row of nodes is `first`.
@@ -44,7 +50,7 @@ ALPENGLOW_FN Spectrum interpolatedNode(IN(MomentShape) s, int x, int y, int firs
   Spectrum b = cubicAlongMuS(lowerX, lastX, t, first + lowerY + 1);
   Spectrum before = cubicAlongMuS(lowerX, lastX, t, first + max(lowerY - 1, 0));
   Spectrum after = cubicAlongMuS(lowerX, lastX, t, first + min(lowerY + 2, lastY));
-  before = lowerY > 0 ? before : REAL(3.0) * (a - b) + after;
-  after = lowerY + 1 < lastY ? after : REAL(3.0) * (b - a) + before;
+  before = lowerY > 0 ? before : beyond(a, b, after, lastY == 1);
+  after = lowerY + 1 < lastY ? after : beyond(b, a, before, lastY == 1);
   return cubic(before, a, b, after, Real(y - lowerY * stepY) / Real(stepY));
 }

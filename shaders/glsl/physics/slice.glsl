@@ -16,7 +16,10 @@ struct SliceView {
 // The same of the sky's rows seen from inside.
 ALPENGLOW_FN Real sliceSkyBend() { return REAL(0.8); }
 
-ALPENGLOW_FN bool sliceFromSpace(IN(SliceView) view) { return view.span < view.horizon; }
+// The highest ray's angle from the nadir: pi inside the atmosphere, less than a right one outside.
+ALPENGLOW_FN bool sliceFromSpace(IN(SliceView) view) {
+  return view.horizon + view.span < REAL(2.0);
+}
 
 // Rows of the ground's side; the sky's follow.
 ALPENGLOW_FN Real sliceGroundRows(IN(SliceView) view) {
