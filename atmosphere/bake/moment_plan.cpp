@@ -158,8 +158,8 @@ class Builder {
     plan_.tables.push_back({TableId::OrderMoments, nodeField_});
     plan_.tables.push_back({TableId::OrderSource, orderSource_});
 
-    Stage rules = stage(ALPENGLOW_SHADER(kMomentRules), rings_ * kFineRings, 2,
-                        6 * kFineRings * rings_);
+    Stage rules =
+        stage(ALPENGLOW_SHADER(kMomentRules), rings_ * kFineRings, 2, 6 * kFineRings * rings_);
     rules.outputs = {{rules_}};
     plan_.addPass(plan_.addStage(rules), "Q", 0);
 
