@@ -33,11 +33,13 @@ Tables* BakeTest::makeTables(const Parameters& parameters, const TableDesc& desc
 
 void BakeTest::bake(Tables* tables, uint64_t budget, const std::string& until) {
   BakeProgress progress;
-  while (!progress.done && !(progress.passFinished && until == progress.pass)) {
+  // An earlier failure of the test must not leave tables half baked: they look like other faults.
+  bool recorded = true;
+  while (recorded && !progress.done && !(progress.passFinished && until == progress.pass)) {
     run([&](VkCommandBuffer commands) {
-      return recordBake(tables, commands, device().frame(), budget, &progress) == Status::Ok;
+      recorded = recordBake(tables, commands, device().frame(), budget, &progress) == Status::Ok;
+      return recorded;
     });
-    if (HasFailure()) return;
   }
 }
 

@@ -23,7 +23,7 @@ struct TruthErrors {
 };
 
 /// The greater of two; a NaN is the worst of all.
-inline double worse(double a, double b) { return b <= a ? a : b; }
+inline double worse(double a, double b) { return std::isnan(a) || b <= a ? a : b; }
 
 /// Device tests that compare with the truth.
 class TruthTest : public BakeTest {
@@ -51,7 +51,7 @@ inline TruthErrors TruthTest::errorsOf(const truth::TruthSet& set, Tables* table
       result.irradiance = worse(result.irradiance, error.skyIrradiance);
       if (query.query.altitude_m == 0.0)
         result.groundIrradiance =
-            std::max(result.groundIrradiance, error.skyIrradiance - 2.0 * noise.skyIrradiance);
+            worse(result.groundIrradiance, error.skyIrradiance - 2.0 * noise.skyIrradiance);
     }
   }
   return result;
