@@ -16,23 +16,21 @@ constexpr MomentSettings kLevels[] = {{128, 64, 10, 28, 8, 4, 5, 8, 8, 24, 12, 4
                                       {384, 192, 22, 84, 18, 8, 10, 18, 18, 56, 32, 6, 8},
                                       {512, 256, 28, 112, 24, 10, 14, 24, 24, 60, 32, 8, 12}};
 
-// Zenith optical depth of what scatters, in the channel where it is greatest.
-double depthOfMolecules(const Parameters& p) {
-  double most = 0.0;
-  for (uint32_t i = 0; i < kSpectrumSize && p.rayleigh.present; ++i)
-    most = std::max(most, p.rayleigh.scattering_per_m[i] * p.rayleigh.scaleHeight_m);
-  return most;
-}
+// Zenith optical depths of what scatters, each in the channel where it is greatest.
+struct ZenithDepth {
+  double molecules = 0.0, all = 0.0;
+};
 
-double scatteringDepth(const Parameters& p) {
-  double most = depthOfMolecules(p);
-  for (uint32_t i = 0; i < kSpectrumSize && p.mie.present; ++i) {
-    const double aerosols = p.mie.scattering_per_m[i] * p.mie.scaleHeight_m;
+ZenithDepth zenithDepth(const Parameters& p) {
+  ZenithDepth depth;
+  for (uint32_t i = 0; i < kSpectrumSize; ++i) {
     const double molecules =
         p.rayleigh.present ? p.rayleigh.scattering_per_m[i] * p.rayleigh.scaleHeight_m : 0.0;
-    most = std::max(most, molecules + aerosols);
+    const double aerosols = p.mie.present ? p.mie.scattering_per_m[i] * p.mie.scaleHeight_m : 0.0;
+    depth.molecules = std::max(depth.molecules, molecules);
+    depth.all = std::max(depth.all, molecules + aerosols);
   }
-  return most;
+  return depth;
 }
 
 // Six classes of air by how often light is scattered in it.
@@ -41,8 +39,9 @@ constexpr double kDepthLimits[] = {0.35, 0.7, 1.5, 4.0, 12.0};
 constexpr uint32_t kOrders[] = {5, 10, 12, 18, 26, 32};
 
 uint32_t depthClass(const Parameters& p) {
+  const double depth = zenithDepth(p).all;
   uint32_t result = 0;
-  for (double limit : kDepthLimits) result += scatteringDepth(p) > limit ? 1 : 0;
+  for (double limit : kDepthLimits) result += depth > limit ? 1 : 0;
   return result;
 }
 
@@ -61,7 +60,8 @@ const PeakClass& peakClass(const Parameters& p) {
   double asymmetry = p.mie.present ? std::abs(p.mie.asymmetry) : 0.0;
   // Without molecules nothing veils the little that is scattered back, where a series that is cut
   // short rings.
-  if (depthOfMolecules(p) < 0.1 * scatteringDepth(p)) asymmetry = std::cbrt(asymmetry * asymmetry);
+  const ZenithDepth depth = zenithDepth(p);
+  if (depth.molecules < 0.1 * depth.all) asymmetry = std::cbrt(asymmetry * asymmetry);
   const PeakClass* result = kPeakClasses;
   while (asymmetry > result->asymmetry) ++result;
   return *result;

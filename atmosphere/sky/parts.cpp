@@ -13,8 +13,6 @@ constexpr double kPi = std::numbers::pi;
 /// Pixels on a side below which cutting gains nothing.
 constexpr uint32_t kLeastTile = 32;
 
-double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 double angleBetween(const double a[3], const double b[3]) {
   const double cross[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
                            a[0] * b[1] - a[1] * b[0]};
@@ -30,9 +28,7 @@ struct Cone {
 /// Where a point of the viewport looks to; x and y in pixels from its centre, to the right and up.
 void direction(const ViewDesc& desc, const SkyDraw& draw, double x, double y, double out[3]) {
   const Camera& c = draw.camera;
-  const double right[3] = {c.forward[1] * c.up[2] - c.forward[2] * c.up[1],
-                           c.forward[2] * c.up[0] - c.forward[0] * c.up[2],
-                           c.forward[0] * c.up[1] - c.forward[1] * c.up[0]};
+  const std::array<double, 3> right = cameraRight(c);
   const double pixel = pixelAngle(desc, draw);
   double ahead = 1.0, scale = pixel;
   if (desc.projection == Projection::Fisheye) {
@@ -40,7 +36,8 @@ void direction(const ViewDesc& desc, const SkyDraw& draw, double x, double y, do
     ahead = std::cos(theta);
     scale = radius > 0.0 ? std::sin(theta) / radius : pixel;
   }
-  for (int i = 0; i < 3; ++i) out[i] = ahead * c.forward[i] + scale * (x * right[i] + y * c.up[i]);
+  for (size_t i = 0; i < 3; ++i)
+    out[i] = ahead * c.forward[i] + scale * (x * right[i] + y * c.up[i]);
 }
 
 /// A cone around all that an area sees.
@@ -105,6 +102,11 @@ bool joinRow(Parts* parts, uint32_t above, uint32_t row) {
 }
 
 }  // namespace
+
+std::array<double, 3> cameraRight(const Camera& camera) {
+  const double *f = camera.forward, *u = camera.up;
+  return {f[1] * u[2] - f[2] * u[1], f[2] * u[0] - f[0] * u[2], f[0] * u[1] - f[1] * u[0]};
+}
 
 ViewportSize viewportSize(const SkyDraw& draw) {
   const double width = draw.viewport.extent.width, height = draw.viewport.extent.height;

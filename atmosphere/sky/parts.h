@@ -5,6 +5,7 @@
 #include <alpenglow/view.h>
 
 #include <array>
+#include <iterator>
 
 namespace alpenglow::sky {
 
@@ -19,7 +20,7 @@ struct Visible {
 inline constexpr Visible kCombinations[] = {{false, false, false}, {true, false, false},
                                             {true, true, false},   {false, false, true},
                                             {true, false, true},   {true, true, true}};
-inline constexpr uint32_t kVariants = 6;
+inline constexpr uint32_t kVariants = std::size(kCombinations);
 constexpr uint32_t variant(const Visible& v) {
   return (v.air ? v.ground ? 2u : 1u : 0u) + (v.disc ? 3u : 0u);
 }
@@ -41,6 +42,12 @@ struct Parts {
   uint32_t count = 0;
 };
 Parts cut(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw);
+
+inline double dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+/// To the right of where a camera looks.
+std::array<double, 3> cameraRight(const Camera& camera);
 
 /// Width and height, and the lesser of them, in pixels.
 struct ViewportSize {

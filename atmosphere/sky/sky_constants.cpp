@@ -10,8 +10,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 void store(float out[4], const double xyz[3], double scale, double w) {
   for (int i = 0; i < 3; ++i) out[i] = static_cast<float>(xyz[i] * scale);
   out[3] = static_cast<float>(w);
@@ -119,9 +117,6 @@ SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc,
   const Camera& c = draw.camera;
   const ViewportSize v = viewportSize(draw);
   const bool fisheye = desc.projection == Projection::Fisheye;
-  const double right[3] = {c.forward[1] * c.up[2] - c.forward[2] * c.up[1],
-                           c.forward[2] * c.up[0] - c.forward[0] * c.up[2],
-                           c.forward[0] * c.up[1] - c.forward[1] * c.up[0]};
   const double tangent = fisheye ? 1.0 : std::tan(0.5 * c.fov);
   const double pixel = pixelAngle(desc, draw);
   const double texel =
@@ -132,7 +127,8 @@ SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc,
   SkyConstants k = {};
   store(k.upAltitude, c.position_m, 1.0 / cameraRadius(c), cameraAltitude(parameters, c));
   store(k.forwardPixel, c.forward, 1.0, pixel);
-  store(k.rightHalfAngle, right, fisheye ? 1.0 : tangent * v.width / v.height, 0.5 * c.fov);
+  store(k.rightHalfAngle, cameraRight(c).data(), fisheye ? 1.0 : tangent * v.width / v.height,
+        0.5 * c.fov);
   store(k.downMapTexel, c.up, -tangent, texel);
   store(k.sunDiscChord, draw.sun.direction, 1.0, disc.chord);
   store(k.irradianceDisc, draw.sun.irradiance.value, scale, disc.radiance);

@@ -101,7 +101,8 @@ Status recordBake(Tables* tables, VkCommandBuffer commands, const FrameInfo& fra
                   BakeProgress* progress);
 
 enum class TableId : uint32_t {
-  OpticalDepth,  ///< ln(1 + 1e5 tau), T = exp(-tau) towards the top: x mu, y r. Either solver.
+  OpticalDepth,  ///< ln(1 + 1e5 tau), T = exp(-tau) towards the top: x mu, y r. Either solver; of
+                 ///< Moments tau times the shell's thickness over the ray's length.
   Moments,       ///< Mean radiance, its second moments and E, five tables below each other: x mu_s,
                  ///< y r (shaders/glsl/physics/field.glsl). Moments; the next as well.
   Source,        ///< Light that aerosols scatter, as a ratio, into angle gamma from the sun and

@@ -57,6 +57,7 @@ ALPENGLOW_FN PathLight lightOfPath(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray,
   Real b2 = max(c1, min(c2, c3));
   Real b3 = max(c2, c3);
   SourceRay source = makeSourceRay(s, ray.nu);
+  Spectrum seen = SPECTRUM(REAL(1.0));
   Real start = REAL(0.0);
   Real du = REAL(1.0) / Real(panels);
   for (int piece = 0; piece < 4; ++piece) {
@@ -65,7 +66,6 @@ ALPENGLOW_FN PathLight lightOfPath(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray,
     Piece p = makePiece(m, ray, start, end);
     Real t = start;
     Real h = min(altitudeAt(m, ray.h, ray.mu, start), m.thickness);
-    Spectrum seen = exp(-light.depth);
     for (int i = 0; i < panels; ++i) {
       Real2 nodeA = pieceNode(p, (Real(i) + kFirst) * du);
       Real2 nodeB = pieceNode(p, (Real(i) + REAL(1.0) - kFirst) * du);
