@@ -250,7 +250,7 @@ TEST_F(SkyTest, AnObjectAcrossTheHorizonHasNoStripe) {
   Steps light, dimming;
   for (const auto& [altitude, distance] :
        {std::pair{2.0, 3e3}, {100.0, 1e4}, {100.0, 3e4}, {1e3, 1e5}, {1e4, 3e5}}) {
-    const double dip = std::acos(earth.bottomRadius_m / (earth.bottomRadius_m + altitude));
+    const double dip = horizonDip(earth, altitude);
     for (const double sunZenith : {0.7, 1.5, 1.57, 1.65, 1.8}) {
       for (const double azimuth : {0.0, 1.0, kPi}) {
         std::vector<Question> column;

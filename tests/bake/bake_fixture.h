@@ -27,6 +27,9 @@ using TableCopies = std::map<TableId, CpuTable>;
 /// Sizes whose bake takes about a CPU second.
 inline constexpr TableSizes kSmallSizes = {64, 16, 16, 4, 8, 32, 16, 4};
 
+/// The least that the moment solver works with.
+inline constexpr MomentSettings kTinySettings = {32, 16, 4, 12, 4, 2, 3, 6, 6, 10, 5, 2, 2};
+
 /// Of the standard solver, by default at the paper's sizes.
 inline TableDesc standardDesc(const TableSizes& sizes = {}) {
   TableDesc desc;

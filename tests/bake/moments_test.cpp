@@ -13,7 +13,7 @@ constexpr TableId kFinalTables[] = {TableId::OpticalDepth, TableId::Moments, Tab
 TableDesc tinyDesc(uint32_t orders) {
   TableDesc desc;
   desc.orders = orders;
-  desc.moments = {32, 16, 4, 12, 4, 2, 3, 6, 6, 10, 5, 2, 2};
+  desc.moments = kTinySettings;
   return desc;
 }
 

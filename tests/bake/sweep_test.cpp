@@ -16,7 +16,7 @@ constexpr int kAtmospheres = ALPENGLOW_SWEEP_COUNT;
 /// The least of everything, in half floats and floats by turns.
 TableDesc tinyDesc(int index) {
   TableDesc desc;
-  desc.moments = {32, 16, 4, 12, 4, 2, 3, 6, 6, 10, 5, 2, 2};
+  desc.moments = kTinySettings;
   desc.format = index % 2 == 0 ? TableFormat::Half : TableFormat::Float;
   return desc;
 }

@@ -1,7 +1,5 @@
 // What a bake costs: user CPU of lavapipe, all threads, after a first bake that compiled the
 // shaders; bytes of the tables on the device, and at the peak with the scratch tables.
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -9,6 +7,7 @@
 #include <string>
 
 #include "tests/bake/bake_fixture.h"
+#include "tests/bench/cpu_time.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -18,12 +17,6 @@ struct Cost {
   std::map<std::string, double> passes;  ///< The same by pass.
   uint64_t tableBytes = 0, peakBytes = 0;
 };
-
-double userSeconds() {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return double(usage.ru_utime.tv_sec) + 1e-6 * double(usage.ru_utime.tv_usec);
-}
 
 class BakeBench : public BakeTest {
  protected:

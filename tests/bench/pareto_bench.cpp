@@ -1,20 +1,13 @@
 // What each quality level costs and how far it is from the truth: the curve of docs/accuracy.md, as
 // its rows. User CPU of lavapipe, all threads, of a second bake; errors of total radiance in per
 // cent, 95th percentile / greatest, by sun band.
-#include <sys/resource.h>
-
 #include <cstdio>
 
 #include "tests/bake/truth_errors.h"
+#include "tests/bench/cpu_time.h"
 
 namespace alpenglow::testing {
 namespace {
-
-double userSeconds() {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return double(usage.ru_utime.tv_sec) + 1e-6 * double(usage.ru_utime.tv_usec);
-}
 
 struct Level {
   const char* name;

@@ -120,7 +120,7 @@ TEST_F(SkyTest, NoDiscBehindTheGround) {
   const Parameters earth = preset("earth");
   for (const double altitude : {0.0, 2.0, 1e4, 3.6e7}) {
     // Just below the horizon, by more than the disc's radius.
-    const double dip = std::acos(earth.bottomRadius_m / (earth.bottomRadius_m + altitude));
+    const double dip = horizonDip(earth, altitude);
     SkyDraw draw = towardsSun(earth, altitude, -dip - radians(0.4), radians(3.0), {32, 32});
     const Picture with = picture(draw);
     draw.sun.discRadius = 0.0;
@@ -128,9 +128,7 @@ TEST_F(SkyTest, NoDiscBehindTheGround) {
     EXPECT_EQ(with.data, without.data) << altitude;
   }
   // Half set: the upper half of the disc is there, the lower is not.
-  SkyDraw draw =
-      towardsSun(earth, 1e4, -std::acos(earth.bottomRadius_m / (earth.bottomRadius_m + 1e4)),
-                 radians(1.0), {32, 32});
+  SkyDraw draw = towardsSun(earth, 1e4, -horizonDip(earth, 1e4), radians(1.0), {32, 32});
   const Picture with = picture(draw);
   draw.sun.discRadius = 0.0;
   const Picture disc = discOnly(with, picture(draw));

@@ -64,30 +64,6 @@ struct SliceErrors {
 
 class MomentSliceTest : public SkyTest {
  protected:
-  View* slicedView(Projection projection) {
-    View*& made = sliced_[projection];
-    if (made == nullptr) {
-      ViewDesc desc = viewDesc();
-      desc.projection = projection;
-      desc.skySlice = tables();
-      made = makeView(desc);
-    }
-    return made;
-  }
-
-  void recordSlice(View* sliced, const Tables* with, const SkyDraw& draw) {
-    run([&](VkCommandBuffer commands) {
-      return recordSkySlice(sliced, commands, device().frame(), with, draw) == Status::Ok;
-    });
-  }
-
-  /// From the slice that was recorded last, if it serves.
-  Picture drawnBy(View* with, Tables* baked, const SkyDraw& draw) {
-    TargetDesc target;
-    target.extent = draw.viewport.extent;
-    return picture(with, baked, draw, target);
-  }
-
   SkyDraw drawOf(const Shot& shot, double altitude, double elevation) {
     double sun[3];
     sunDirection(0.0, 0.0, radians(elevation), kSunAzimuth, sun);
@@ -103,7 +79,7 @@ class MomentSliceTest : public SkyTest {
     recordSlice(sliced, tables(), drawOf(shots[0], look.altitude, elevation));
     for (const Shot& shot : shots) {
       const SkyDraw draw = drawOf(shot, look.altitude, elevation);
-      found.add(picture(draw, shot.projection), drawnBy(sliced, tables(), draw));
+      found.add(picture(draw, shot.projection), picture(sliced, tables(), draw));
     }
     std::sort(found.errors.begin(), found.errors.end());
     return found;
@@ -128,19 +104,13 @@ class MomentSliceTest : public SkyTest {
     std::printf("\n");
   }
 
-  static double dip(double altitude) {
-    const Parameters earth = preset("earth");
-    return std::acos(earth.bottomRadius_m / (earth.bottomRadius_m + altitude));
-  }
+  static double dip(double altitude) { return horizonDip(preset("earth"), altitude); }
   /// Angle from the horizon to the top of the air, or 3 degrees inside it.
   static double limb(double altitude) {
     const Parameters earth = preset("earth");
     const double r = earth.bottomRadius_m + altitude;
     return r > earth.topRadius_m ? dip(altitude) - std::acos(earth.topRadius_m / r) : radians(3.0);
   }
-
- private:
-  std::map<Projection, View*> sliced_;
 };
 
 // At 61 km the pixels, 4 degrees apart, straddle the edge of the night in the limb.
@@ -218,15 +188,15 @@ TEST_F(MomentSliceTest, IsNotReadForAnotherCameraSunOrTables) {
   const SkyDraw draw = drawOf(ahead, 2.0, 20.0);
   const Picture ofEarth = picture(draw), ofHaze = picture(draw, ahead.projection, hazy);
   recordSlice(sliced, earth, draw);
-  EXPECT_GT(difference(drawnBy(sliced, earth, draw), ofEarth), kSlice);
+  EXPECT_GT(difference(picture(sliced, earth, draw), ofEarth), kSlice);
   for (const SkyDraw& other :
        {drawOf(ahead, 2.5, 20.0), drawOf(ahead, 2.0, 20.1), drawOf(ahead, 4e5, 20.0)})
-    EXPECT_LT(difference(drawnBy(sliced, earth, other), picture(other)), kRounding);
-  EXPECT_LT(difference(drawnBy(sliced, hazy, draw), ofHaze), kRounding);
+    EXPECT_LT(difference(picture(sliced, earth, other), picture(other)), kRounding);
+  EXPECT_LT(difference(picture(sliced, hazy, draw), ofHaze), kRounding);
   // One slice for the tables of any atmosphere.
   recordSlice(sliced, hazy, draw);
-  EXPECT_GT(difference(drawnBy(sliced, hazy, draw), ofHaze), kSlice);
-  EXPECT_LT(difference(drawnBy(sliced, earth, draw), ofEarth), kRounding);
+  EXPECT_GT(difference(picture(sliced, hazy, draw), ofHaze), kSlice);
+  EXPECT_LT(difference(picture(sliced, earth, draw), ofEarth), kRounding);
 }
 
 TEST_F(MomentSliceTest, IsOneDispatchInsideAndOutside) {

@@ -16,9 +16,7 @@ class PassageTest : public SkyTest {
   PassageTest() : earth_(preset("earth")) {}
 
   double top() const { return earth_.topRadius_m - earth_.bottomRadius_m; }
-  double dip(double altitude) const {
-    return std::acos(earth_.bottomRadius_m / (earth_.bottomRadius_m + altitude));
-  }
+  double dip(double altitude) const { return horizonDip(earth_, altitude); }
 
   /// A ray `below` radians under the horizontal.
   static ProbeQuery ray(double altitude, double below, double elevation) {
@@ -105,23 +103,16 @@ TEST_F(PassageTest, NoJumpFromTheGroundToSpace) {
 // A slice has other rows on either side of the top; the greatest difference is at its edge, which
 // no row meets from inside. Relative to a pixel, or to a hundredth of the brightest.
 TEST_F(PassageTest, SlicesOfBothSidesShowTheSame) {
-  ViewDesc desc = viewDesc();
-  desc.projection = Projection::Fisheye;
-  desc.skySlice = tables();
-  View* const sliced = makeView(desc);
-  TargetDesc target;
-  target.extent = {64, 64};
+  View* const sliced = slicedView(Projection::Fisheye);
   for (const double elevation : kSuns) {
     double sun[3];
     sunDirection(0.0, 0.0, radians(elevation), 0.5, sun);
     const auto drawn = [&](double altitude) {
       const SkyDraw draw = makeDraw(
           cameraFromGeodetic(earth_, 0.0, 0.0, altitude, 0.0, radians(-90.0), 0.0, 2.0 * kPi),
-          vec(sun), target.extent);
-      run([&](VkCommandBuffer commands) {
-        return recordSkySlice(sliced, commands, device().frame(), tables(), draw) == Status::Ok;
-      });
-      return picture(sliced, tables(), draw, target);
+          vec(sun), {64, 64});
+      recordSlice(sliced, tables(), draw);
+      return picture(sliced, tables(), draw);
     };
     const Picture inside = drawn(top() - 0.05), outside = drawn(top() + 0.05);
     float most = 0.0f;

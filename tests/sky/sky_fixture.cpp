@@ -11,7 +11,7 @@ struct Shared {
   std::unique_ptr<VulkanWrap> vulkan;
   Context* context = nullptr;
   std::map<std::tuple<std::string, Solver, MieStorage>, Tables*> tables;
-  std::map<std::pair<Projection, Solver>, View*> views;
+  std::map<std::pair<Projection, Solver>, View*> views, slicedViews;
   std::vector<View*> otherViews;
   std::string message;
 };
@@ -124,6 +124,10 @@ ProbeQuery rayQuery(const Parameters& parameters, const Camera& camera, const Ve
   return query;
 }
 
+double horizonDip(const Parameters& parameters, double altitude) {
+  return std::acos(parameters.bottomRadius_m / (parameters.bottomRadius_m + altitude));
+}
+
 void SkyTest::SetUp() {
   DeviceTest::SetUp();
   message().clear();
@@ -132,6 +136,7 @@ void SkyTest::SetUp() {
 void SkyTest::TearDownTestSuite() {
   Shared& s = shared();
   for (const auto& entry : s.views) destroyView(entry.second, FrameInfo{});
+  for (const auto& entry : s.slicedViews) destroyView(entry.second, FrameInfo{});
   for (View* one : s.otherViews) destroyView(one, FrameInfo{});
   for (const auto& entry : s.tables) destroyTables(entry.second, FrameInfo{});
   destroyContext(s.context);
@@ -196,10 +201,31 @@ View* SkyTest::makeView(const ViewDesc& desc) {
   return made;
 }
 
+View* SkyTest::slicedView(Projection projection) {
+  View*& slot = shared().slicedViews[{projection, solver_}];
+  if (slot == nullptr) {
+    ViewDesc desc = viewDesc();
+    desc.projection = projection;
+    desc.skySlice = tables();
+    EXPECT_EQ(createView(context(), desc, &slot), Status::Ok) << message();
+  }
+  return slot;
+}
+
+void SkyTest::recordSlice(View* sliced, const Tables* with, const SkyDraw& draw) {
+  run([&](VkCommandBuffer commands) {
+    return recordSkySlice(sliced, commands, device().frame(), with, draw) == Status::Ok;
+  });
+}
+
 Picture SkyTest::picture(const SkyDraw& draw, Projection projection, Tables* with) {
+  return picture(view(projection), with != nullptr ? with : tables(), draw);
+}
+
+Picture SkyTest::picture(View* with, Tables* baked, const SkyDraw& draw) {
   TargetDesc target;
   target.extent = draw.viewport.extent;
-  return picture(view(projection), with != nullptr ? with : tables(), draw, target);
+  return picture(with, baked, draw, target);
 }
 
 Picture SkyTest::picture(View* with, Tables* baked, const SkyDraw& draw,

@@ -106,6 +106,9 @@ std::optional<Vec> pixelDirection(const SkyDraw& draw, Projection projection, do
 ProbeQuery rayQuery(const Parameters& parameters, const Camera& camera, const Vec& direction,
                     const Vec& sun);
 
+/// Angle of the planet's horizon below the horizontal, radians.
+double horizonDip(const Parameters& parameters, double altitude);
+
 /// One context for all tests of a suite, with what was baked and made on it. With the default
 /// solver: its drafts, which take less than a CPU second each.
 class SkyTest : public DeviceTest {
@@ -124,9 +127,14 @@ class SkyTest : public DeviceTest {
   /// Of 32-bit floats, for the suite's solver.
   ViewDesc viewDesc() const;
   View* makeView(const ViewDesc& desc);
+  /// Like view(), with a sky slice of the shape of tables().
+  View* slicedView(Projection projection);
+  void recordSlice(View* sliced, const Tables* with, const SkyDraw& draw);
   /// With view(projection), into a 32-bit float target of the viewport's size.
   Picture picture(const SkyDraw& draw, Projection projection = Projection::Perspective,
                   Tables* with = nullptr);
+  /// The same with another view; from the slice that was recorded last, if it serves.
+  Picture picture(View* with, Tables* tables, const SkyDraw& draw);
   Picture picture(View* with, Tables* tables, const SkyDraw& draw, const TargetDesc& target);
   std::vector<ProbeAnswer> probeAll(const std::vector<ProbeQuery>& queries, Tables* with = nullptr);
   /// What `context` said last; emptied by SetUp.

@@ -32,23 +32,10 @@ class TwilightTest : public SkyTest {
   }
 
   Pair bothPictures(const SkyDraw& draw, Projection projection = Projection::Perspective) {
-    View*& sliced = sliced_[projection];
-    if (sliced == nullptr) {
-      ViewDesc desc = viewDesc();
-      desc.projection = projection;
-      desc.skySlice = tables();
-      sliced = makeView(desc);
-    }
-    run([&](VkCommandBuffer commands) {
-      return recordSkySlice(sliced, commands, device().frame(), tables(), draw) == Status::Ok;
-    });
-    TargetDesc target;
-    target.extent = draw.viewport.extent;
-    return {picture(draw, projection), picture(sliced, tables(), draw, target)};
+    View* const sliced = slicedView(projection);
+    recordSlice(sliced, tables(), draw);
+    return {picture(draw, projection), picture(sliced, tables(), draw)};
   }
-
- private:
-  std::map<Projection, View*> sliced_;
 };
 
 double brightness(const Picture& picture) {
@@ -81,8 +68,7 @@ constexpr VkExtent2D kColumn = {4, 1024};  ///< A 64th of a degree a pixel.
 
 /// Row of the horizon in an upright column whose centre looks `pitch` high.
 double horizonRow(double altitude, double pitch) {
-  const double bottomRadius = preset("earth").bottomRadius_m;
-  const double dip = std::acos(bottomRadius / (bottomRadius + altitude));
+  const double dip = horizonDip(preset("earth"), altitude);
   return 0.5 * kColumn.height * (1.0 + std::tan(pitch + dip) / std::tan(0.5 * kFov));
 }
 
