@@ -95,6 +95,26 @@ class Stages {
   uint32_t count_ = 0;
 };
 
+uint32_t colorCount(const GraphicsPipelineDesc& desc) {
+  uint32_t count = 0;
+  while (count < kMaxColorTargets && desc.colors[count].format != VK_FORMAT_UNDEFINED) ++count;
+  return count;
+}
+
+VkPipelineColorBlendAttachmentState blendState(Blend blend) {
+  VkPipelineColorBlendAttachmentState state = {};
+  state.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                         VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+  if (blend == Blend::None) return state;
+  const bool dual = blend == Blend::DualSource;
+  state.blendEnable = VK_TRUE;
+  state.srcColorBlendFactor = state.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+  state.dstColorBlendFactor = dual ? VK_BLEND_FACTOR_SRC1_COLOR : VK_BLEND_FACTOR_ONE;
+  state.dstAlphaBlendFactor = dual ? VK_BLEND_FACTOR_SRC1_ALPHA : VK_BLEND_FACTOR_ONE;
+  state.colorBlendOp = state.alphaBlendOp = blend == Blend::Max ? VK_BLEND_OP_MAX : VK_BLEND_OP_ADD;
+  return state;
+}
+
 /// Everything between the stages and the attachments: points into itself.
 struct FixedFunctions {
   VkPipelineVertexInputStateCreateInfo vertexInput =
@@ -113,7 +133,9 @@ struct FixedFunctions {
           VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
   VkPipelineDepthStencilStateCreateInfo depth = structure<VkPipelineDepthStencilStateCreateInfo>(
       VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
-  VkPipelineColorBlendAttachmentState attachment = {};
+  VkPipelineColorBlendAttachmentState attachments[kMaxColorTargets] = {};
+  VkVertexInputBindingDescription binding = {};
+  VkVertexInputAttributeDescription attribute = {};
   VkPipelineColorBlendStateCreateInfo blend = structure<VkPipelineColorBlendStateCreateInfo>(
       VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
   VkDynamicState dynamicStates[2] = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
@@ -121,19 +143,31 @@ struct FixedFunctions {
       VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
 
   explicit FixedFunctions(const GraphicsPipelineDesc& desc) {
-    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    assembly.topology = desc.adjacency ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST_WITH_ADJACENCY
+                                       : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    if (desc.vertices.stride > 0) {
+      binding = {0, desc.vertices.stride, VK_VERTEX_INPUT_RATE_VERTEX};
+      attribute = {0, 0, VK_FORMAT_R32G32B32_SFLOAT, desc.vertices.offset};
+      vertexInput.vertexBindingDescriptionCount = 1;
+      vertexInput.pVertexBindingDescriptions = &binding;
+      vertexInput.vertexAttributeDescriptionCount = 1;
+      vertexInput.pVertexAttributeDescriptions = &attribute;
+    }
     viewport.viewportCount = 1;
     viewport.scissorCount = 1;
     rasterization.polygonMode = VK_POLYGON_MODE_FILL;
     rasterization.cullMode = VK_CULL_MODE_NONE;
+    rasterization.frontFace = VK_FRONT_FACE_CLOCKWISE;
+    rasterization.depthClampEnable = desc.depthClamp ? VK_TRUE : VK_FALSE;
     rasterization.lineWidth = 1.0f;
     multisample.rasterizationSamples = desc.samples;
     depth.depthTestEnable = desc.depthTest ? VK_TRUE : VK_FALSE;
+    depth.depthWriteEnable = desc.depthWrite ? VK_TRUE : VK_FALSE;
     depth.depthCompareOp = desc.depthCompare;
-    attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                                VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    blend.attachmentCount = 1;
-    blend.pAttachments = &attachment;
+    blend.attachmentCount = colorCount(desc);
+    for (uint32_t i = 0; i < blend.attachmentCount; ++i)
+      attachments[i] = blendState(desc.colors[i].blend);
+    blend.pAttachments = attachments;
     dynamic.dynamicStateCount = 2;
     dynamic.pDynamicStates = dynamicStates;
   }
@@ -148,10 +182,12 @@ Status checkTarget(const Device& device, const GraphicsPipelineDesc& desc) {
                        "without dynamicRendering.",
                        desc.fragment.name);
   }
-  if (desc.renderPass == VK_NULL_HANDLE && desc.colorFormat == VK_FORMAT_UNDEFINED) {
+  if (desc.renderPass == VK_NULL_HANDLE && colorCount(desc) == 0 &&
+      desc.depthFormat == VK_FORMAT_UNDEFINED) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "Pipeline \"%s\" has no colour format, but dynamic rendering needs one.",
-                       desc.fragment.name);
+                       "Pipeline \"%s\" has no colour format and no depth format, but dynamic "
+                       "rendering needs one.",
+                       desc.vertex.name);
   }
   if (desc.renderPass != VK_NULL_HANDLE && desc.viewMask != 0) {
     return device.fail(
@@ -163,7 +199,8 @@ Status checkTarget(const Device& device, const GraphicsPipelineDesc& desc) {
   return checkConstants(device, desc.fragment.name, desc.constantCount);
 }
 
-VkPipelineRenderingCreateInfo renderingOf(const GraphicsPipelineDesc& desc) {
+VkPipelineRenderingCreateInfo renderingOf(const GraphicsPipelineDesc& desc,
+                                          VkFormat colors[kMaxColorTargets]) {
   const VkFormat format = desc.depthFormat;
   const bool stencil = format == VK_FORMAT_D16_UNORM_S8_UINT ||
                        format == VK_FORMAT_D24_UNORM_S8_UINT ||
@@ -171,8 +208,9 @@ VkPipelineRenderingCreateInfo renderingOf(const GraphicsPipelineDesc& desc) {
   auto rendering =
       structure<VkPipelineRenderingCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO);
   rendering.viewMask = desc.viewMask;
-  rendering.colorAttachmentCount = 1;
-  rendering.pColorAttachmentFormats = &desc.colorFormat;
+  rendering.colorAttachmentCount = colorCount(desc);
+  for (uint32_t i = 0; i < kMaxColorTargets; ++i) colors[i] = desc.colors[i].format;
+  rendering.pColorAttachmentFormats = colors;
   rendering.depthAttachmentFormat = format;
   rendering.stencilAttachmentFormat = stencil ? format : VK_FORMAT_UNDEFINED;
   return rendering;
@@ -269,11 +307,14 @@ Status createGraphicsPipeline(Device& device, const GraphicsPipelineDesc& desc, 
   if (status == Status::Ok && desc.geometry.code != nullptr) {
     status = stages.add(VK_SHADER_STAGE_GEOMETRY_BIT, desc.geometry);
   }
-  if (status == Status::Ok) status = stages.add(VK_SHADER_STAGE_FRAGMENT_BIT, desc.fragment);
+  if (status == Status::Ok && (desc.fragment.code != nullptr || colorCount(desc) > 0)) {
+    status = stages.add(VK_SHADER_STAGE_FRAGMENT_BIT, desc.fragment);
+  }
   if (status != Status::Ok) return status;
 
   const FixedFunctions fixed(desc);
-  const VkPipelineRenderingCreateInfo rendering = renderingOf(desc);
+  VkFormat colors[kMaxColorTargets];
+  const VkPipelineRenderingCreateInfo rendering = renderingOf(desc, colors);
   auto info =
       structure<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO);
   info.pNext = desc.renderPass == VK_NULL_HANDLE ? &rendering : nullptr;

@@ -41,22 +41,46 @@ struct ComputePipelineDesc {
 /// answer. Named after its shader. On failure `*out` is null. May be called from several threads.
 Status createComputePipeline(Device& device, const ComputePipelineDesc& desc, VkPipeline* out);
 
-/// A pipeline for a triangle that covers the viewport: no vertex input, triangle list, no culling,
-/// no blending, no depth write, viewport and scissor dynamic.
+enum class Blend : uint32_t {
+  None,
+  Add,         ///< Source + destination.
+  Max,         ///< Of source and destination.
+  DualSource,  ///< Source + destination times the second source (index 1 of location 0).
+};
+
+struct ColorTarget {
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  Blend blend = Blend::None;
+};
+inline constexpr uint32_t kMaxColorTargets = 2;
+
+/// Positions of three floats, from a buffer that is bound at binding 0, at location 0.
+struct VertexInput {
+  uint32_t stride = 0;  ///< Bytes; 0: no vertex input.
+  uint32_t offset = 0;
+};
+
+/// By default a pipeline for a triangle that covers the viewport: no vertex input, triangle list,
+/// no blending, no depth write. Never culls; viewport and scissor are dynamic. The front of a
+/// triangle is where its vertices run clockwise on the screen (y down).
 struct GraphicsPipelineDesc {
   Shader vertex;
   Shader geometry;  ///< Optional: no code, no stage.
-  Shader fragment;
+  Shader fragment;  ///< Optional without colour.
   VkPipelineLayout layout = VK_NULL_HANDLE;
   const SpecConstant* constants = nullptr;  ///< The same list for every stage.
   uint32_t constantCount = 0;
-  VkFormat colorFormat = VK_FORMAT_UNDEFINED;
+  VertexInput vertices;
+  bool adjacency = false;                      ///< A list of triangles with adjacency.
+  ColorTarget colors[kMaxColorTargets];        ///< Those before the first without a format.
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< UNDEFINED: no depth attachment.
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   uint32_t viewMask = 0;                     ///< Of dynamic rendering.
   VkRenderPass renderPass = VK_NULL_HANDLE;  ///< Null: dynamic rendering with the formats above.
   uint32_t subpass = 0;
   bool depthTest = false;
+  bool depthWrite = false;
+  bool depthClamp = false;  ///< Needs the feature: nothing is clipped at the near and far planes.
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
 };
 

@@ -201,7 +201,7 @@ Status View::makePipelines(bool slice, VkPipeline* pipelines) {
   desc.vertex = {s::kSkyVertex, sizeof s::kSkyVertex, "sky.vert"};
   desc.fragment = fragmentShader(desc_.solver, desc_.groundAlbedo.view != VK_NULL_HANDLE, slice);
   desc.layout = layout_;
-  desc.colorFormat = desc_.colorFormat;
+  desc.colors[0].format = desc_.colorFormat;
   desc.depthFormat = desc_.depthFormat;
   desc.samples = desc_.samples;
   desc.renderPass = desc_.renderPass;

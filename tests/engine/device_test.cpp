@@ -333,7 +333,7 @@ TEST_F(EngineDeviceTest, DynamicRenderingMustBeEnabled) {
   GraphicsPipelineDesc desc;
   desc.vertex = kShader;
   desc.fragment = kShader;
-  desc.colorFormat = VK_FORMAT_R8G8B8A8_UNORM;
+  desc.colors[0].format = VK_FORMAT_R8G8B8A8_UNORM;
   VkPipeline pipeline = VK_NULL_HANDLE;
   EXPECT_EQ(createGraphicsPipeline(*device_, desc, &pipeline), Status::Unsupported);
   desc.renderPass = handleFrom<VkRenderPass>(8);

@@ -96,7 +96,7 @@ class Everything {
     graphics.geometry = kShader;
     graphics.fragment = kShader;
     graphics.layout = layout_;
-    graphics.colorFormat = VK_FORMAT_R8G8B8A8_UNORM;
+    graphics.colors[0].format = VK_FORMAT_R8G8B8A8_UNORM;
     return createGraphicsPipeline(device_, graphics, &graphics_);
   }
 

@@ -119,7 +119,7 @@ class GraphicsTest : public GpuTest {
     desc.layout = layout_;
     desc.constants = &kDouble;
     desc.constantCount = 1;
-    desc.colorFormat = kFloat;
+    desc.colors[0].format = kFloat;
     return desc;
   }
 

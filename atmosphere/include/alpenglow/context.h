@@ -13,6 +13,9 @@ struct Context;  ///< Opaque.
 enum Capability : uint32_t {
   kCapabilityBake = 1u << 0,  ///< Compute shaders that fill the tables, and probe queries.
   kCapabilitySky = 1u << 1,   ///< Graphics pipelines that draw sky and ground.
+  kCapabilityAir = 1u << 2,   ///< Aerial perspective over a host's scene: dualSrcBlend.
+  kCapabilityShafts = 1u << 3,  ///< Light shafts: geometryShader, depthClamp, shaderClipDistance,
+                                ///< independentBlend.
 };
 using CapabilityFlags = uint32_t;
 
@@ -37,7 +40,7 @@ struct ContextDesc {
   VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
   PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
-  CapabilityFlags capabilities = 0;         ///< 0: all.
+  CapabilityFlags capabilities = 0;         ///< 0: bake and sky, which every device has.
   Requirements enabled;                     ///< What the host really enabled on its device.
   const uint32_t* queueFamilies = nullptr;  ///< Families that will touch our images.
   uint32_t queueFamilyCount = 0;            ///< More than one makes images concurrent.

@@ -7,17 +7,36 @@
 namespace alpenglow {
 inline namespace v1 {
 
-struct View;  ///< Opaque.
+struct View;    ///< Opaque.
+struct Shafts;  ///< Opaque: alpenglow/shafts.h.
 
 enum class Projection : uint32_t {
   Perspective,  ///< fov is vertical, in (0, pi).
   Fisheye,      ///< Equidistant; fov is the full circle's, in (0, 2 pi]; the largest centred circle
                 ///< of the viewport, black outside.
+  Orthographic,  ///< Parallel rays from the plane through the camera; Camera::height_m.
 };
 
 enum class DepthConvention : uint32_t {
   Standard,  ///< 0 near, 1 far.
   Reversed,  ///< 1 near, 0 far.
+};
+
+/// What the depth of the host's picture means, with its DepthConvention: distances along
+/// Camera::forward.
+struct DepthRange {
+  double near_m = 0.0;  ///< Above 0 (perspective); any (orthographic).
+  double far_m = 0.0;   ///< Above near_m; 0: infinitely far (perspective).
+};
+
+/// The depth image of the host's opaque scene, which recordAir and recordShafts read: one sample a
+/// pixel, usage SAMPLED and DEPTH_STENCIL_ATTACHMENT, in the layout below while they execute, with
+/// its writes made available to fragment shader reads and early fragment tests.
+struct SceneDepth {
+  VkImageView view = VK_NULL_HANDLE;  ///< Of the depth aspect.
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  VkExtent2D extent = {};
+  VkImageLayout layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
 };
 
 /// An equirectangular map of the ground's albedo: u = 0 at longitude -180 degrees, v = 0 at the
@@ -46,6 +65,12 @@ struct ViewDesc {
   /// once a frame makes a pixel of recordSky much cheaper; of Solver::Standard, for cameras inside
   /// the atmosphere only.
   const Tables* skySlice = nullptr;
+  /// For recordAir; a null view: the view has no aerial perspective. Make another view when the
+  /// host's depth image is made anew.
+  SceneDepth sceneDepth;
+  /// Light shafts that the view draws; it outlives the view. Null: none. Needs sceneDepth, the same
+  /// as the shafts', and Solver::Moments.
+  const Shafts* shafts = nullptr;
 };
 
 /// Checks the description and makes the pipelines.
@@ -60,7 +85,8 @@ struct Camera {
   double position_m[3] = {};
   double forward[3] = {};  ///< Unit vectors, orthogonal.
   double up[3] = {};
-  double fov = 0.0;  ///< Radians, see Projection.
+  double fov = 0.0;       ///< Radians, see Projection; not orthographic.
+  double height_m = 0.0;  ///< Orthographic: from the lower to the upper edge of the picture.
 };
 
 /// The sun of this frame: never state of the tables.
@@ -76,10 +102,12 @@ struct SkyDraw {
   double radianceScale = 0.0;  ///< Factor on the stored radiance, so that night survives half
                                ///< floats; 0 means 1.
   VkRect2D viewport = {};      ///< In pixels of the colour attachment.
+  DepthRange depth;            ///< For recordAir and recordShafts.
 };
 
 /// Records, outside any rendering scope, the slice that this draw's camera and sun look into: one
-/// dispatch, of the light along all rays (moments) or of the scattering table (standard). A
+/// dispatch, of the light along all rays (moments) or of the scattering table (standard); and, with
+/// ViewDesc::sceneDepth and moments, its air volume: the same up to every distance. A
 /// recordSky of the same tables, camera position and sun direction that follows in recording order
 /// reads it; any other reads the tables. InvalidArgument without ViewDesc::skySlice, and for tables
 /// of another shape. With Solver::Standard nothing is recorded for a camera outside the atmosphere,
@@ -94,6 +122,17 @@ Status recordSkySlice(View* view, VkCommandBuffer commands, const FrameInfo& fra
 /// its pixels may see of air, ground and sun. The tables must be ready. Clobbers: graphics
 /// pipeline, sets 0 and 1, push constants, viewport, scissor.
 Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame, const Tables* tables,
+                 const SkyDraw& draw);
+
+/// Aerial perspective: draws, inside the host's rendering scope, over every pixel of the viewport
+/// that the host's scene covers: colour times transmittance plus light scattered on the way, less
+/// what shadows keep from it (ViewDesc::shafts). The host has drawn its opaque scene into the colour
+/// attachment in linear radiance times SkyDraw::radianceScale; the scope's depth attachment, if any,
+/// is read-only (ViewDesc::sceneDepth is read meanwhile). With a sky slice recorded for this draw it
+/// reads that frame's air volume, else it integrates each pixel's ray through the tables. Sky pixels
+/// are left to recordSky, in either order. Needs ViewDesc::sceneDepth, kCapabilityAir and
+/// SkyDraw::depth. Not for fisheyes. Clobbers what recordSky does, and sets 0 to 2.
+Status recordAir(View* view, VkCommandBuffer commands, const FrameInfo& frame, const Tables* tables,
                  const SkyDraw& draw);
 
 /// A camera above a point of the planet, as scene files give it. Angles in radians: heading

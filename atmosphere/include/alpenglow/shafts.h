@@ -1,0 +1,73 @@
+// Light shafts: shadows of a host's casters in the air. Single scattering loses its light there.
+#pragma once
+
+#include <alpenglow/mesh.h>
+#include <alpenglow/view.h>
+
+namespace alpenglow {
+inline namespace v1 {
+
+enum class ShaftMethod : uint32_t {
+  Exact,  ///< Walls below the casters' silhouettes, drawn where a map from the sun says that they
+          ///< divide light from shadow; each adds or subtracts the light up to it. Any number of
+          ///< lit stretches along a ray. docs/shafts.md.
+  Paper,  ///< Shadow volumes and one length a pixel, as Bruneton & Neyret 2008, section 5: closed
+          ///< casters, all orders of scattering lose their light.
+  March,  ///< Samples of the map from the sun along each ray.
+};
+
+struct ShaftsDesc {
+  ShaftMethod method = ShaftMethod::Exact;
+  SceneDepth sceneDepth;  ///< Of the host's opaque scene; attached read-only by recordShafts.
+  DepthConvention depth = DepthConvention::Standard;
+  Projection projection = Projection::Perspective;  ///< Not a fisheye.
+  uint32_t sunMapSize = 0;    ///< Texels on a side of the map from the sun; 0: 2048.
+  uint32_t samples = 0;       ///< Of March, for each ray; 0: 32.
+  uint32_t vertexStride = 0;  ///< Bytes from one vertex of a caster to the next; 0: 12.
+  uint32_t vertexOffset = 0;  ///< Of its position, three floats.
+};
+
+/// A pass in which the host draws its casters. Pipeline, viewport and scissor are set.
+struct CasterPass;
+
+/// Places what the next draws of this pass draw: local position p lies at origin_m + rotation p,
+/// in the planet's frame. `rotation`: three rows, of determinant above 0 (a scale is welcome); null:
+/// none.
+void placeCaster(const CasterPass* pass, const double origin_m[3], const float rotation[9]);
+
+/// For each of its casters calls placeCaster, then binds its vertices (binding 0, with stride and
+/// offset of ShaftsDesc) and indices (triangles with adjacency: alpenglow/mesh.h) and draws. Called
+/// inside recordSunMap and recordShafts; binds no pipeline and no descriptor set.
+using DrawCastersFn = void (*)(void* user, VkCommandBuffer commands, const CasterPass* pass);
+
+struct Casters {
+  Box bounds;  ///< All casters lie in it; the map from the sun covers it.
+  DrawCastersFn draw = nullptr;
+  void* user = nullptr;
+};
+
+/// Checks the description and makes targets and pipelines; nothing of a method that isn't chosen.
+Status createShafts(Context* context, const ShaftsDesc& desc, Shafts** out);
+/// Frees them once `frame.completed` of a later call reaches `frame.submitting`; after their views.
+void destroyShafts(Shafts* shafts, const FrameInfo& frame);
+
+/// Records, outside any rendering scope, the map from the sun: one draw of the casters. Needed when
+/// the sun or a caster has moved; else the last one serves. Exact and March. Clobbers: pipelines,
+/// sets 0 to 2, push constants, viewport, scissor.
+Status recordSunMap(Shafts* shafts, VkCommandBuffer commands, const FrameInfo& frame,
+                    const double sunDirection[3], const Casters& casters);
+
+/// Records, outside any rendering scope, the shadows of this draw's camera, after the host's scene
+/// has been drawn into the depth image: the view's recordSky and recordAir of the same draw then
+/// read them. With Exact after recordSunMap for the same sun, and recordSkySlice of the view for the
+/// same draw (orthographic cameras need none). Clobbers as recordSunMap.
+Status recordShafts(Shafts* shafts, View* view, VkCommandBuffer commands, const FrameInfo& frame,
+                    const Tables* tables, const SkyDraw& draw, const Casters& casters);
+
+/// Binding table of shaftSet, for the host's own fragment shaders that include alpenglow/shafts.glsl:
+/// alpenglowSunlit() tells whether the surface in a pixel sees the sun. Filled by recordShafts.
+VkDescriptorSetLayout shaftSetLayout(const Shafts* shafts);
+VkDescriptorSet shaftSet(const Shafts* shafts);
+
+}  // namespace v1
+}  // namespace alpenglow
