@@ -157,7 +157,7 @@ struct FixedFunctions {
     viewport.scissorCount = 1;
     rasterization.polygonMode = VK_POLYGON_MODE_FILL;
     rasterization.cullMode = VK_CULL_MODE_NONE;
-    rasterization.frontFace = VK_FRONT_FACE_CLOCKWISE;
+    rasterization.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     rasterization.depthClampEnable = desc.depthClamp ? VK_TRUE : VK_FALSE;
     rasterization.lineWidth = 1.0f;
     multisample.rasterizationSamples = desc.samples;
@@ -202,9 +202,10 @@ Status checkTarget(const Device& device, const GraphicsPipelineDesc& desc) {
 VkPipelineRenderingCreateInfo renderingOf(const GraphicsPipelineDesc& desc,
                                           VkFormat colors[kMaxColorTargets]) {
   const VkFormat format = desc.depthFormat;
-  const bool stencil = format == VK_FORMAT_D16_UNORM_S8_UINT ||
-                       format == VK_FORMAT_D24_UNORM_S8_UINT ||
-                       format == VK_FORMAT_D32_SFLOAT_S8_UINT;
+  const bool stencil =
+      desc.stencil &&
+      (format == VK_FORMAT_D16_UNORM_S8_UINT || format == VK_FORMAT_D24_UNORM_S8_UINT ||
+       format == VK_FORMAT_D32_SFLOAT_S8_UINT);
   auto rendering =
       structure<VkPipelineRenderingCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO);
   rendering.viewMask = desc.viewMask;

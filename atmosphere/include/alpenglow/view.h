@@ -135,6 +135,14 @@ Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame, c
 Status recordAir(View* view, VkCommandBuffer commands, const FrameInfo& frame, const Tables* tables,
                  const SkyDraw& draw);
 
+/// The matrix (column-major) that a host may draw its scene with, and that its depth image must agree
+/// with: from metres off the camera, in the planet's axes, to Vulkan's clip space. With z the
+/// distance along Camera::forward, n = near_m and f = far_m, depth is (Standard) f (z - n) /
+/// (z (f - n)), or 1 - n / z without f; (Reversed) n (f - z) / (z (f - n)), or n / z; orthographic
+/// (z - n) / (f - n), or (f - z) / (f - n). Not for fisheyes.
+void clipFromCamera(Projection projection, DepthConvention convention, const SkyDraw& draw,
+                    float matrix[16]);
+
 /// A camera above a point of the planet, as scene files give it. Angles in radians: heading
 /// clockwise from north, pitch above the horizon (pi/2: the zenith), roll clockwise.
 Camera cameraFromGeodetic(const Parameters& parameters, double latitude, double longitude,

@@ -1,0 +1,44 @@
+// Where the map from the sun lies, and what a frame's shaders know of it and of the camera.
+#pragma once
+
+#include <alpenglow/shafts.h>
+
+namespace alpenglow::shafts {
+
+/// A box along the sun's beam about the casters, in the planet's frame.
+struct SunMapPlace {
+  double center[3] = {};
+  double u[3] = {}, v[3] = {}, sun[3] = {};           ///< Orthogonal unit vectors.
+  double halfU = 1.0, halfV = 1.0, halfDepth = 1.0;  ///< Metres.
+};
+/// The least box; `texels` on a side, of which two at each edge are left free.
+SunMapPlace placeSunMap(const Box& bounds, const double sun[3], uint32_t texels);
+
+/// std140 of AlpenglowShaftFrame in shaders/glsl/alpenglow/shafts.glsl, which says what each is.
+struct ShaftFrame {
+  float clipFromCamera[16];
+  float upAltitude[4];
+  float forwardNear[4];
+  float rightOffsetX[4];
+  float downOffsetY[4];
+  float sunRange[4];
+  float mapU[4];
+  float mapV[4];
+  float mapDepth[4];
+  float wall[4];
+  float pixels[4];
+};
+static_assert(sizeof(ShaftFrame) == 224, "As std140 lays it out");
+
+/// Everything is computed in double and rounded once.
+ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,
+                          const SunMapPlace& map, const SkyDraw& draw);
+
+/// Three rows that take local positions of a caster (placeCaster) to metres from `eye`.
+void rowsFromEye(const double eye[3], const double origin[3], const float rotation[9],
+                 float rows[3][4]);
+/// Or onto the map: coordinates in [-1, 1], and depth.
+void rowsOnMap(const SunMapPlace& map, const double origin[3], const float rotation[9],
+               float rows[3][4]);
+
+}  // namespace alpenglow::shafts

@@ -1,0 +1,282 @@
+#include "atmosphere/shafts/shaft_pass.h"
+
+#include <alpenglow/shaders/shaft_caster.h>
+#include <alpenglow/shaders/shaft_volume_fragment.h>
+#include <alpenglow/shaders/shaft_volume_geometry.h>
+#include <alpenglow/shaders/shaft_wall_fragment.h>
+#include <alpenglow/shaders/shaft_wall_geometry.h>
+
+#include <algorithm>
+#include <limits>
+#include <new>
+
+#include "engine/barriers.h"
+#include "engine/structure.h"
+
+namespace alpenglow {
+inline namespace v1 {
+namespace {
+
+constexpr ImageState kBlended = {
+    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+
+constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_GEOMETRY_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+/// AlpenglowShaftFrame; the map from the sun; sums and bounds; blocks of the map.
+constexpr VkDescriptorSetLayoutBinding kBindings[] = {
+    {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kBoth, nullptr},
+    {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, kBoth, nullptr},
+    {2, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+    {3, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
+    {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_GEOMETRY_BIT, nullptr}};
+constexpr uint32_t kBindingCount = std::size(kBindings);
+
+/// Sums of light: floats where they can be blended.
+VkFormat sumFormat(const engine::Device& device) {
+  const VkFormatFeatureFlags features =
+      device.formatProperties(VK_FORMAT_R32G32B32A32_SFLOAT).optimalTilingFeatures;
+  return (features & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) != 0
+             ? VK_FORMAT_R32G32B32A32_SFLOAT
+             : VK_FORMAT_R16G16B16A16_SFLOAT;
+}
+
+}  // namespace
+
+Status Shafts::create(bake::Resources& resources, const ShaftsDesc& desc, Shafts** out) {
+  *out = nullptr;
+  auto* shafts = new (std::nothrow) Shafts(resources, desc);
+  if (shafts == nullptr) {
+    return resources.device().fail(Status::OutOfHostMemory, VK_SUCCESS,
+                                   "Light shafts found no host memory.");
+  }
+  ++resources.liveViews;
+  const Status status = shafts->make();
+  if (status != Status::Ok) {
+    destroy(shafts, FrameInfo{});  // Nothing was recorded with it: frame 0 has always completed.
+    return status;
+  }
+  *out = shafts;
+  return Status::Ok;
+}
+
+void Shafts::destroy(Shafts* shafts, const FrameInfo& frame) {
+  if (shafts == nullptr) return;
+  --shafts->resources_.liveViews;
+  engine::Device& device = shafts->device_;
+  engine::DeletionQueue& deletions = device.deletions();
+  const auto defer = [&](VkObjectType type, auto handle) {
+    deletions.defer(frame.submitting, type, engine::handleNumber(handle));
+  };
+  defer(VK_OBJECT_TYPE_PIPELINE, shafts->pipeline_);
+  defer(VK_OBJECT_TYPE_PIPELINE, shafts->volumePipeline_);
+  defer(VK_OBJECT_TYPE_PIPELINE_LAYOUT, shafts->layout_);
+  defer(VK_OBJECT_TYPE_DESCRIPTOR_POOL, shafts->pool_);
+  defer(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, shafts->setLayout_);
+  for (engine::Image& image : shafts->targets_) engine::deferImage(device, frame.submitting, &image);
+  engine::deferBuffer(device, frame.submitting, &shafts->frame_);
+  engine::deferBlock(device, frame.submitting, &shafts->memory_);
+  shafts->map_.destroy(frame);
+  delete shafts;
+  deletions.collect(frame.completed);
+}
+
+Status Shafts::make() {
+  Status status = mapped() ? map_.make(desc_, exact()) : Status::Ok;
+  if (status == Status::Ok) status = makeTargets();
+  if (status == Status::Ok) status = makeSet();
+  if (status == Status::Ok && desc_.method != ShaftMethod::March) status = makePipelines();
+  return status;
+}
+
+Status Shafts::makeTargets() {
+  Status status = engine::createBuffer(
+      device_, sizeof(shafts::ShaftFrame),
+      VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+      "Alpenglow shaft frame", &frame_);
+  if (status != Status::Ok) return status;
+  const bool paper = desc_.method == ShaftMethod::Paper;
+  const uint32_t count = paper ? 2 : exact() ? 1 : 0;
+  engine::Image* images[] = {&targets_[0], &targets_[1]};
+  for (uint32_t i = 0; i < count; ++i) {
+    engine::ImageDesc image;
+    image.format = paper ? VK_FORMAT_R32G32_SFLOAT : sumFormat(device_);
+    image.extent = {desc_.sceneDepth.extent.width, desc_.sceneDepth.extent.height, 1};
+    image.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
+                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    image.linearFilter = false;
+    image.name = i == 0 ? "Alpenglow shaft sums" : "Alpenglow shaft bounds";
+    status = engine::createImage(device_, image, &targets_[i]);
+    if (status != Status::Ok) return status;
+    ++targetCount_;
+  }
+  engine::Buffer* buffers[] = {&frame_};
+  return engine::allocateAndBind(device_, "Alpenglow shafts", VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                 images, targetCount_, buffers, 1, &memory_);
+}
+
+Status Shafts::makeSet() {
+  Status status =
+      engine::createSetLayout(device_, kBindings, kBindingCount, "Alpenglow shafts", &setLayout_);
+  if (status != Status::Ok) return status;
+  const engine::PoolPart part = {kBindings, kBindingCount, 1};
+  status = engine::createPool(device_, &part, 1, "Alpenglow shafts", &pool_);
+  if (status != Status::Ok) return status;
+  status = engine::allocateSets(device_, pool_, &setLayout_, 1, "Alpenglow shafts", &set_);
+  if (status != Status::Ok) return status;
+  // A shader that asks for any method reads all of them: what a method lacks is another image.
+  const VkImageView map = mapped() ? map_.depth().view : targets_[0].view;
+  const VkImageView sums = targetCount_ > 0 ? targets_[0].view : map;
+  const VkImageView bounds = targetCount_ > 1 ? targets_[1].view : sums;
+  const VkImageView blocks = exact() ? map_.blocks().view : map;
+  const VkSampler sampler = resources_.nearestSampler();
+  engine::DescriptorWriter writer(set_);
+  writer.uniformBuffer(0, frame_.handle)
+      .sampledImage(1, map, sampler)
+      .sampledImage(2, sums, sampler)
+      .sampledImage(3, bounds, sampler)
+      .sampledImage(4, blocks, sampler);
+  return writer.flush(device_);
+}
+
+Status Shafts::makePipelines() {
+  const VkDescriptorSetLayout sets[] = {resources_.tableLayout(), setLayout_};
+  const Status status = engine::createPipelineLayout(device_, sets, 2, &shafts::kPlaceRange, 1,
+                                                     "Alpenglow shafts", &layout_);
+  return status == Status::Ok ? makePipeline(false, &pipeline_) : status;
+}
+
+Status Shafts::makePipeline(bool fromVolume, VkPipeline* out) {
+  namespace s = alpenglow::shaders;
+  (void)fromVolume;
+  const bool reversed = desc_.depth == DepthConvention::Reversed;
+  engine::GraphicsPipelineDesc desc;
+  desc.vertex = {s::kShaftCaster, sizeof s::kShaftCaster, "caster.vert"};
+  if (exact()) {
+    desc.geometry = {s::kShaftWallGeometry, sizeof s::kShaftWallGeometry, "wall.geom"};
+    desc.fragment = {s::kShaftWallFragment, sizeof s::kShaftWallFragment, "wall.frag"};
+    desc.colors[0] = {targets_[0].desc.format, engine::Blend::Add};
+  } else {
+    desc.geometry = {s::kShaftVolumeGeometry, sizeof s::kShaftVolumeGeometry, "volume.geom"};
+    desc.fragment = {s::kShaftVolumeFragment, sizeof s::kShaftVolumeFragment, "volume.frag"};
+    desc.colors[0] = {targets_[0].desc.format, engine::Blend::Add};
+    desc.colors[1] = {targets_[1].desc.format, engine::Blend::Max};
+  }
+  const engine::SpecConstant constants[] = {
+      engine::specBool(0, desc_.projection == Projection::Orthographic),
+      engine::specBool(1, reversed)};
+  desc.constants = constants;
+  desc.constantCount = 2;
+  desc.layout = layout_;
+  desc.vertices = {desc_.vertexStride, desc_.vertexOffset};
+  desc.adjacency = true;
+  desc.depthFormat = desc_.sceneDepth.format;
+  desc.stencil = false;
+  desc.depthTest = true;
+  desc.depthClamp = true;  // what lies beyond the far plane shadows the sky
+  desc.depthCompare = reversed ? VK_COMPARE_OP_GREATER_OR_EQUAL : VK_COMPARE_OP_LESS_OR_EQUAL;
+  return engine::createGraphicsPipeline(device_, desc, out);
+}
+
+Status Shafts::recordSunMap(VkCommandBuffer commands, const double sun[3],
+                            const Casters& casters) {
+  if (!mapped()) return Status::Ok;
+  return map_.record(commands, sun, casters);
+}
+
+Status Shafts::checkMap(const SkyDraw& draw) const {
+  if (!mapped() || std::equal(map_.sun(), map_.sun() + 3, draw.sun.direction)) return Status::Ok;
+  return device_.fail(Status::InvalidArgument, VK_SUCCESS,
+                      "recordShafts got the sun at (%g, %g, %g), but recordSunMap was called last "
+                      "for (%g, %g, %g): they must be the same.",
+                      draw.sun.direction[0], draw.sun.direction[1], draw.sun.direction[2],
+                      map_.sun()[0], map_.sun()[1], map_.sun()[2]);
+}
+
+Status Shafts::record(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw,
+                      const Casters& casters, VkDescriptorSet air) {
+  Status status = checkMap(draw);
+  if (status != Status::Ok) return status;
+  status = updateFrame(
+      commands, shafts::makeShaftFrame(tables.parameters(), desc_, map_.place(), draw));
+  if (status == Status::Ok && targetCount_ > 0)
+    status = drawShadows(commands, tables, draw, casters, air);
+  if (status != Status::Ok) return status;
+  tablesId_ = tables.id();
+  draw_ = draw;
+  return Status::Ok;
+}
+
+Status Shafts::updateFrame(VkCommandBuffer commands, const shafts::ShaftFrame& frame) {
+  constexpr VkPipelineStageFlags2 kReaders = VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT;
+  engine::Barriers barriers;
+  barriers.memory(kReaders, VK_ACCESS_2_NONE, VK_PIPELINE_STAGE_2_CLEAR_BIT |
+                  VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+  Status status = barriers.record(device_, commands);
+  if (status != Status::Ok) return status;
+  device_.vk().CmdUpdateBuffer(commands, frame_.handle, 0, sizeof frame, &frame);
+  barriers.memory(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, kReaders,
+                  VK_ACCESS_2_UNIFORM_READ_BIT);
+  return barriers.record(device_, commands);
+}
+
+Status Shafts::drawShadows(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw,
+                           const Casters& casters, VkDescriptorSet air) {
+  engine::Barriers barriers;
+  for (uint32_t i = 0; i < targetCount_; ++i) barriers.discard(targets_[i], kBlended);
+  Status status = barriers.record(device_, commands);
+  if (status != Status::Ok) return status;
+
+  VkRenderingAttachmentInfo colors[2];
+  for (uint32_t i = 0; i < targetCount_; ++i) {
+    colors[i] =
+        engine::structure<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
+    colors[i].imageView = targets_[i].view;
+    colors[i].imageLayout = kBlended.layout;
+    colors[i].loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    colors[i].storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    if (i == 1) colors[i].clearValue.color.float32[0] = -std::numeric_limits<float>::infinity();
+  }
+  auto depth =
+      engine::structure<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
+  depth.imageView = desc_.sceneDepth.view;
+  depth.imageLayout = desc_.sceneDepth.layout;
+  depth.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+  depth.storeOp = VK_ATTACHMENT_STORE_OP_NONE;
+  auto rendering = engine::structure<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
+  rendering.renderArea = draw.viewport;
+  rendering.layerCount = 1;
+  rendering.colorAttachmentCount = targetCount_;
+  rendering.pColorAttachments = colors;
+  rendering.pDepthAttachment = &depth;
+
+  const engine::Dispatch& vk = device_.vk();
+  const VkDescriptorSet sets[] = {tables.descriptorSet(), set_, air};
+  vk.CmdBeginRendering(commands, &rendering);
+  vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 2, sets, 0,
+                           nullptr);
+  CasterPass pass;
+  pass.device = &device_;
+  pass.commands = commands;
+  pass.layout = layout_;
+  pass.eye = draw.camera.position_m;
+  shafts::drawCasters(pass, air != VK_NULL_HANDLE ? volumePipeline_ : pipeline_, draw.viewport,
+                      casters);
+  vk.CmdEndRendering(commands);
+  for (uint32_t i = 0; i < targetCount_; ++i)
+    barriers.image(targets_[i], engine::kFragmentSampled);
+  return barriers.record(device_, commands);
+}
+
+bool Shafts::serves(const Tables& tables, const SkyDraw& draw) const {
+  const auto same = [](const double a[3], const double b[3]) { return std::equal(a, a + 3, b); };
+  const Camera &a = draw_.camera, &b = draw.camera;
+  const VkRect2D &p = draw_.viewport, &q = draw.viewport;
+  return tablesId_ == tables.id() && same(a.position_m, b.position_m) &&
+         same(a.forward, b.forward) && same(a.up, b.up) && a.fov == b.fov &&
+         a.height_m == b.height_m && same(draw_.sun.direction, draw.sun.direction) &&
+         p.offset.x == q.offset.x && p.offset.y == q.offset.y &&
+         p.extent.width == q.extent.width && p.extent.height == q.extent.height;
+}
+
+}  // namespace v1
+}  // namespace alpenglow
