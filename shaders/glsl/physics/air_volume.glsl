@@ -65,7 +65,8 @@ ALPENGLOW_FN AirStretch airStretch(IN(Medium) m, IN(AirView) view, IN(Ray) ray) 
   a.lowest = max(-rMu, REAL(0.0));
   a.hitsGround = ray.hitsGround;
   a.start = airTurn(a, REAL(0.0));
-  a.range = log((REAL(1.0) + a.extent / a.near_) * airTurn(a, a.extent) / a.start);
+  // Rays of no length have no range, but must not be divided by it.
+  a.range = max(log((REAL(1.0) + a.extent / a.near_) * airTurn(a, a.extent) / a.start), REAL(1e-6));
   return a;
 }
 
