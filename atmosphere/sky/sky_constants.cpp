@@ -84,6 +84,14 @@ physics_f64::SliceView sliceView(const Parameters& parameters, double altitude) 
   return view;
 }
 
+void sunAzimuth(const SkyDraw& draw, double out[3]) {
+  const double *position = draw.camera.position_m, *sun = draw.sun.direction;
+  const double r = cameraRadius(draw.camera), muS = dot(position, sun) / r;
+  for (int i = 0; i < 3; ++i) out[i] = sun[i] - muS * position[i] / r;
+  const double sine = std::sqrt(dot(out, out));
+  for (int i = 0; i < 3; ++i) out[i] *= sine > 1e-12 ? 1.0 / sine : 0.0;
+}
+
 Status checkDraw(const engine::Device& device, const ViewDesc& desc, const SkyDraw& draw) {
   const Camera& c = draw.camera;
   const double r2 = dot(c.position_m, c.position_m);
@@ -137,13 +145,9 @@ SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc,
   k.circleSlice[1] = static_cast<float>(v.height / v.least);
   k.circleSlice[2] = static_cast<float>(slice.horizon);
   k.circleSlice[3] = static_cast<float>(slice.span);
-  // Towards a sun in the zenith no azimuth is the sun's, and any will do.
-  const double* sun = draw.sun.direction;
-  const double r = cameraRadius(c), muS = dot(c.position_m, sun) / r;
-  double across[3];
-  for (int i = 0; i < 3; ++i) across[i] = sun[i] - muS * c.position_m[i] / r;
-  const double sine = std::sqrt(dot(across, across));
-  store(k.sunAzimuth, across, sine > 1e-12 ? 1.0 / sine : 0.0, slice.bend);
+  double azimuth[3];
+  sunAzimuth(draw, azimuth);
+  store(k.sunAzimuth, azimuth, 1.0, slice.bend);
   return k;
 }
 

@@ -35,84 +35,120 @@ ALPENGLOW_FN Spectrum panelLimit(Spectrum start, Spectrum end, Spectrum depth, S
   return mix(SPECTRUM(REAL(1.0)), ratio, thick);
 }
 
+// How far along a ray its light has been summed up, and what came of it; the scattering coefficients are
+// left to walkedLight.
+struct PathWalk {
+  PathLight light;
+  Spectrum seen;  // transmittance of what lies behind
+  Real t;
+  Real h;
+};
+
+ALPENGLOW_FN PathWalk startWalk(IN(Medium) m, IN(Ray) ray) {
+  PathWalk walk;
+  walk.light.rayleigh = SPECTRUM(REAL(0.0));
+  walk.light.mie = SPECTRUM(REAL(0.0));
+  walk.light.multiple = SPECTRUM(REAL(0.0));
+  walk.light.depth = SPECTRUM(REAL(0.0));
+  walk.seen = SPECTRUM(REAL(1.0));
+  walk.t = REAL(0.0);
+  walk.h = min(ray.h, m.thickness);
+  return walk;
+}
+
+ALPENGLOW_FN PathLight walkedLight(IN(Medium) m, IN(PathWalk) walk) {
+  PathLight light = walk.light;
+  light.rayleigh *= m.rayleighScattering;
+  light.mie *= m.mieScattering;
+  return light;
+}
+
+// Where the first Gauss point of a panel lies; the second is as far from its end.
+ALPENGLOW_FN Real firstOfPanel() { return REAL(0.21132486540518712); }
+
+// One panel more, to distance `next`. nodeA and nodeB are its Gauss points: distance and dt of the panel.
+ALPENGLOW_FN PathWalk walkPanel(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray, IN(SourceRay) source,
+                                IN(PathWalk) before, Real2 nodeA, Real2 nodeB, Real next, bool single,
+                                bool multiple) {
+  const Real kNear = REAL(0.25);  // what lies before the points of its integral
+  const Real kCross = REAL(0.03867513459481288);
+  PathWalk walk = before;
+  Real hA = min(altitudeAt(m, ray.h, ray.mu, nodeA[0]), m.thickness);
+  Real hB = min(altitudeAt(m, ray.h, ray.mu, nodeB[0]), m.thickness);
+  walk.t = next;
+  walk.h = min(altitudeAt(m, ray.h, ray.mu, next), m.thickness);
+  Spectrum extinctionA = exponentialExtinction(m, hA) * nodeA[1];
+  Spectrum extinctionB = exponentialExtinction(m, hB) * nodeB[1];
+  // Metres of the tent's full density up to either node and to the next panel.
+  Real tentA = meanAbsorptionDensity(m, before.h, hA) * (nodeA[0] - before.t);
+  Real tentB = tentA + meanAbsorptionDensity(m, hA, hB) * (nodeB[0] - nodeA[0]);
+  Real tent = tentB + meanAbsorptionDensity(m, hB, walk.h) * (next - nodeB[0]);
+  Spectrum depthA = max(before.light.depth + kNear * extinctionA - kCross * extinctionB,
+                        before.light.depth) +
+                    m.absorptionExtinction * tentA;
+  Spectrum depthB = before.light.depth + (REAL(0.5) + kCross) * extinctionA + kNear * extinctionB +
+                    m.absorptionExtinction * tentB;
+  Spectrum depth = REAL(0.5) * (extinctionA + extinctionB) + m.absorptionExtinction * tent;
+  walk.light.depth = before.light.depth + depth;
+  Spectrum seenA = exp(-depthA);
+  Spectrum seenB = exp(-depthB);
+  walk.seen = exp(-walk.light.depth);
+  Spectrum loss = seenA * extinctionA + seenB * extinctionB +
+                  (seenA + seenB) * m.absorptionExtinction * tent;
+  Spectrum weight = REAL(0.5) * panelLimit(before.seen, walk.seen, depth, REAL(0.5) * loss);
+  Spectrum rayleighA, mieA, multipleA, rayleighB, mieB, multipleB;
+  addNode(m, s, ray, source, nodeA[0], hA, seenA * weight * nodeA[1], single, multiple, rayleighA, mieA,
+          multipleA);
+  addNode(m, s, ray, source, nodeB[0], hB, seenB * weight * nodeB[1], single, multiple, rayleighB, mieB,
+          multipleB);
+  walk.light.rayleigh = before.light.rayleigh + rayleighA + rayleighB;
+  walk.light.mie = before.light.mie + mieA + mieB;
+  walk.light.multiple = before.light.multiple + multipleA + multipleB;
+  return walk;
+}
+
+// Distances at which the first d metres of a ray are cut, in order; 0 or d where there is nothing to cut.
+// Without single scattering only at the lowest point: its sources are smooth across the shadow's edge.
+ALPENGLOW_FN Real3 pathCuts(IN(Medium) m, IN(Ray) ray, Real d, bool single) {
+  Real lowest = -radiusAt(m, ray.h) * ray.mu;
+  Real2 edges = shadowEdges(m, ray.h, ray.mu, ray.muS, ray.nu);
+  if (!single) edges = Real2(REAL(0.0), REAL(0.0));
+  Real c1 = clamp(min(edges[0], edges[1]), REAL(0.0), d);
+  Real c2 = clamp(max(edges[0], edges[1]), REAL(0.0), d);
+  Real c3 = clamp(lowest, REAL(0.0), d);
+  return Real3(min(c1, c3), max(c1, min(c2, c3)), max(c2, c3));
+}
+
+// The first of them after t, else `end`.
+ALPENGLOW_FN Real cutAfter(Real3 cuts, Real t, Real end) {
+  return t < cuts[0] ? cuts[0] : t < cuts[1] ? cuts[1] : t < cuts[2] ? cuts[2] : end;
+}
+
 // Equation 11 over the first d metres of a ray: one event (`single`), and all that have been solved
 // (`multiple`), both literals; panels: of two points, for each piece.
 ALPENGLOW_FN PathLight lightOfPath(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray, Real d, int panels,
                                    bool single, bool multiple) {
-  const Real kFirst = REAL(0.21132486540518712);  // Gauss points of a panel, and what lies
-  const Real kNear = REAL(0.25);                   // before them of its integral
-  const Real kCross = REAL(0.03867513459481288);
-  PathLight light;
-  light.rayleigh = SPECTRUM(REAL(0.0));
-  light.mie = SPECTRUM(REAL(0.0));
-  light.multiple = SPECTRUM(REAL(0.0));
-  light.depth = SPECTRUM(REAL(0.0));
-  Real lowest = -radiusAt(m, ray.h) * ray.mu;
-  Real2 edges = shadowEdges(m, ray.h, ray.mu, ray.muS, ray.nu);
-  if (!single) edges = Real2(REAL(0.0), REAL(0.0));  // sources are smooth across the shadow's edge
-  Real c1 = clamp(min(edges[0], edges[1]), REAL(0.0), d);
-  Real c2 = clamp(max(edges[0], edges[1]), REAL(0.0), d);
-  Real c3 = clamp(lowest, REAL(0.0), d);
-  Real b1 = min(c1, c3);
-  Real b2 = max(c1, min(c2, c3));
-  Real b3 = max(c2, c3);
+  Real3 cuts = pathCuts(m, ray, d, single);
   SourceRay source = makeSourceRay(s, ray.nu);
-  Spectrum seen = SPECTRUM(REAL(1.0));
+  PathWalk walk = startWalk(m, ray);
   Real start = REAL(0.0);
   Real du = REAL(1.0) / Real(panels);
   for (int piece = 0; piece < 4; ++piece) {
     if (start >= d) break;
-    Real end = start < b1 ? b1 : start < b2 ? b2 : start < b3 ? b3 : d;
+    Real end = cutAfter(cuts, start, d);
     Piece p = makePiece(m, ray, start, end);
-    Real t = start;
-    Real h = min(altitudeAt(m, ray.h, ray.mu, start), m.thickness);
+    walk.t = start;
+    walk.h = min(altitudeAt(m, ray.h, ray.mu, start), m.thickness);
     for (int i = 0; i < panels; ++i) {
-      Real2 nodeA = pieceNode(p, (Real(i) + kFirst) * du);
-      Real2 nodeB = pieceNode(p, (Real(i) + REAL(1.0) - kFirst) * du);
-      Real next = pieceNode(p, Real(i + 1) * du)[0];
-      Real hA = min(altitudeAt(m, ray.h, ray.mu, nodeA[0]), m.thickness);
-      Real hB = min(altitudeAt(m, ray.h, ray.mu, nodeB[0]), m.thickness);
-      Real hNext = min(altitudeAt(m, ray.h, ray.mu, next), m.thickness);
-      Spectrum extinctionA = exponentialExtinction(m, hA) * (nodeA[1] * du);
-      Spectrum extinctionB = exponentialExtinction(m, hB) * (nodeB[1] * du);
-      // Metres of the tent's full density up to either node and to the next panel.
-      Real tentA = meanAbsorptionDensity(m, h, hA) * (nodeA[0] - t);
-      Real tentB = tentA + meanAbsorptionDensity(m, hA, hB) * (nodeB[0] - nodeA[0]);
-      Real tent = tentB + meanAbsorptionDensity(m, hB, hNext) * (next - nodeB[0]);
-      Spectrum depthA =
-          max(light.depth + kNear * extinctionA - kCross * extinctionB, light.depth) +
-          m.absorptionExtinction * tentA;
-      Spectrum depthB = light.depth + (REAL(0.5) + kCross) * extinctionA + kNear * extinctionB +
-                        m.absorptionExtinction * tentB;
-      Spectrum depth =
-          REAL(0.5) * (extinctionA + extinctionB) + m.absorptionExtinction * tent;
-      light.depth += depth;
-      Spectrum seenA = exp(-depthA);
-      Spectrum seenB = exp(-depthB);
-      Spectrum seenNext = exp(-light.depth);
-      Spectrum loss = seenA * extinctionA + seenB * extinctionB +
-                      (seenA + seenB) * m.absorptionExtinction * tent;
-      Spectrum weight = REAL(0.5) * panelLimit(seen, seenNext, depth, REAL(0.5) * loss);
-      t = next;
-      h = hNext;
-      seen = seenNext;
-      Spectrum r, mi, mu;
-      addNode(m, s, ray, source, nodeA[0], hA, seenA * weight * (nodeA[1] * du), single, multiple, r,
-              mi, mu);
-      light.rayleigh += r;
-      light.mie += mi;
-      light.multiple += mu;
-      addNode(m, s, ray, source, nodeB[0], hB, seenB * weight * (nodeB[1] * du), single, multiple, r,
-              mi, mu);
-      light.rayleigh += r;
-      light.mie += mi;
-      light.multiple += mu;
+      Real2 nodeA = pieceNode(p, (Real(i) + firstOfPanel()) * du);
+      Real2 nodeB = pieceNode(p, (Real(i) + REAL(1.0) - firstOfPanel()) * du);
+      walk = walkPanel(m, s, ray, source, walk, Real2(nodeA[0], nodeA[1] * du),
+                       Real2(nodeB[0], nodeB[1] * du), pieceNode(p, Real(i + 1) * du)[0], single,
+                       multiple);
     }
     start = end;
   }
-  light.rayleigh *= m.rayleighScattering;
-  light.mie *= m.mieScattering;
-  return light;
+  return walkedLight(m, walk);
 }
 
 // All the light that a path scatters to its beginning.

@@ -23,6 +23,8 @@
 
 #include "slice.glsl"
 
+#include "air_volume.glsl"
+
 #include "tone_map.glsl"
 
 #endif

@@ -54,15 +54,57 @@ ALPENGLOW_FN Real sliceNadirAngle(IN(SliceView) view, Real u, bool hitsGround) {
   return hitsGround ? view.horizon * (REAL(1.0) - share) : view.horizon + view.span * share;
 }
 
+// Texels of a table over directions: the sky slice, or a layer of the air volume.
+struct SliceGrid {
+  Real groundRows;  // the sky's follow
+  Real rows;
+  Real columns;  // in use
+  Real width;    // of the texture
+};
+
+ALPENGLOW_FN SliceGrid sliceGrid(IN(SliceView) view) {
+  SliceGrid grid;
+  grid.groundRows = sliceGroundRows(view);
+  grid.rows = Real(kSliceRows);
+  grid.columns = sliceAzimuths(view);
+  grid.width = Real(kSliceColumns);
+  return grid;
+}
+
 // Texture coordinate; sineHalf: sine of half the azimuth, even and smooth at both its ends as the light is.
+ALPENGLOW_FN Real2 gridCoordinate(IN(SliceGrid) grid, IN(SliceView) view, Real nadirAngle,
+                                  Real sineHalf, bool hitsGround) {
+  Real u = sliceUnit(view, nadirAngle, hitsGround);
+  Real texel = hitsGround ? u * (grid.groundRows - REAL(1.0))
+                          : grid.groundRows + u * (grid.rows - grid.groundRows - REAL(1.0));
+  return Real2((REAL(0.5) + sineHalf * (grid.columns - REAL(1.0))) / grid.width,
+               (texel + REAL(0.5)) / grid.rows);
+}
+
 ALPENGLOW_FN Real2 sliceCoordinate(IN(SliceView) view, Real nadirAngle, Real sineHalf,
                                    bool hitsGround) {
-  Real u = sliceUnit(view, nadirAngle, hitsGround);
-  Real ground = sliceGroundRows(view);
-  Real texel = hitsGround ? u * (ground - REAL(1.0))
-                          : ground + u * (Real(kSliceRows) - ground - REAL(1.0));
-  return Real2((REAL(0.5) + sineHalf * (sliceAzimuths(view) - REAL(1.0))) / Real(kSliceColumns),
-               (texel + REAL(0.5)) / Real(kSliceRows));
+  return gridCoordinate(sliceGrid(view), view, nadirAngle, sineHalf, hitsGround);
+}
+
+// The ray of texel (x, y), of a camera at an altitude.
+ALPENGLOW_FN Ray gridRay(IN(Medium) m, IN(SliceGrid) grid, IN(SliceView) view, Real altitude, Real muS,
+                         Real x, Real y) {
+  bool hitsGround = y < grid.groundRows;
+  Real u = hitsGround ? unitFromTexel(y, grid.groundRows)
+                      : unitFromTexel(y - grid.groundRows, grid.rows - grid.groundRows);
+  Real angle = sliceNadirAngle(view, u, hitsGround);
+  Real sineHalf = min(unitFromTexel(x, grid.columns), REAL(1.0));
+  Real mu = -cos(angle);
+  Real sine = sin(angle);
+  Real cosPhi = REAL(1.0) - REAL(2.0) * sineHalf * sineHalf;
+  Real nu = clamp(mu * muS + sine * sqrt(max(REAL(1.0) - muS * muS, REAL(0.0))) * cosPhi, REAL(-1.0),
+                  REAL(1.0));
+  Ray ray = makeRay(m, altitude, mu, sine, muS, nu);
+  // The row says on which side of the horizon a ray lies, whatever its angle rounds to.
+  ray.hitsGround = hitsGround;
+  ray.extent =
+      hitsGround ? distanceToGround(m, ray.h, ray.mu) : distanceToTop(m, ray.h, ray.mu);
+  return ray;
 }
 
 // Angle between a direction and the nadir from its zenith cosine and from sin^2 of half that angle, which
@@ -74,6 +116,17 @@ ALPENGLOW_FN Real angleFromNadir(Real mu, Real sineHalfSquared) {
   Real p = arcSineOfSmall(wide ? sqrt(max(half_, REAL(0.0))) : a);
   Real fromAxis = wide ? REAL(2.0) * p : REAL(0.5) * REAL(ALPENGLOW_PI) - p;
   return mu < REAL(0.0) ? fromAxis : REAL(ALPENGLOW_PI) - fromAxis;
+}
+
+// Of a direction: its angle from the nadir, and the sine of half its azimuth from the sun; `up` is the
+// camera's vertical, `sunAzimuth` the horizontal unit vector towards the sun, or 0 for a sun in the zenith.
+ALPENGLOW_FN Real2 sliceAngles(Real3 up, Real3 sunAzimuth, Real3 direction) {
+  Real mu = dot(direction, up);
+  Real3 across = direction - mu * up;
+  Real3 fromNadir = direction + up;
+  Real cosine = dot(across, sunAzimuth) * inversesqrt(max(dot(across, across), REAL(1e-20)));
+  return Real2(angleFromNadir(mu, REAL(0.25) * dot(fromNadir, fromNadir)),
+               sqrt(clamp(REAL(0.5) - REAL(0.5) * cosine, REAL(0.0), REAL(1.0))));
 }
 
 // A texel keeps the logarithm of its light, because across the terminator light falls by more than a texel

@@ -98,13 +98,9 @@ Spectrum sliceTerm(Ray ray, vec3 view) {
   return scatteringOfRayInSlice(alpenglowMedium, alpenglowShape, ray.h, ray.mu, ray.nu,
                                 ray.hitsGround);
 #else
-  float mu = dot(view, upAltitude.xyz);
-  vec3 across = view - mu * upAltitude.xyz;
-  vec3 fromNadir = view + upAltitude.xyz;
-  float cosine = dot(across, sunAzimuth.xyz) * inversesqrt(max(dot(across, across), 1e-20));
   SliceView slice = SliceView(circleSlice.z, circleSlice.w, sunAzimuth.w);
-  vec2 at = sliceCoordinate(slice, angleFromNadir(mu, 0.25 * dot(fromNadir, fromNadir)),
-                            sqrt(clamp(0.5 - 0.5 * cosine, 0.0, 1.0)), ray.hitsGround);
+  vec2 angles = sliceAngles(upAltitude.xyz, sunAzimuth.xyz, view);
+  vec2 at = sliceCoordinate(slice, angles.x, angles.y, ray.hitsGround);
   Spectrum light = decodeSlice(readSlice(at).rgb, readSliceMie(at),
                                miePhase(alpenglowMedium.mieAsymmetry, ray.nu));
   return ray.inAtmosphere ? light : SPECTRUM(0.0);

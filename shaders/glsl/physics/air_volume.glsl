@@ -1,0 +1,136 @@
+// The air volume of a camera: light and optical depth of the first metres of all its rays, over direction
+// (physics/slice.glsl) and distance, made anew for each camera and sun. It answers for any distance, from
+// metres to the end of the ray, wherever the camera is.
+
+const int kAirColumns = 64;
+const int kAirRows = 96;
+const int kAirDistances = 40;
+
+// What the mappings need, the same for all rays of a camera: airView.
+struct AirView {
+  SliceView slice;
+  Real extinction_;  // where rays begin, 1/m, of the channel that loses most
+  Real height;       // in which the air thins out by e, m: the least there is
+};
+
+ALPENGLOW_FN AirView airView(IN(Medium) m, IN(SliceView) slice, Real altitude) {
+  AirView view;
+  Spectrum e = extinction(m, min(altitude, m.thickness));
+  view.slice = slice;
+  view.extinction_ = max(max(e[0], e[1]), e[2]);
+  view.height = min(m.rayleighScaleHeight, m.mieScaleHeight);
+  return view;
+}
+
+ALPENGLOW_FN SliceGrid airGrid(IN(SliceView) view) {
+  SliceGrid grid;
+  grid.rows = Real(kAirRows);
+  grid.groundRows = sliceFromSpace(view) ? REAL(0.6) * grid.rows : grid.rows / REAL(3.0);
+  grid.groundRows = floor(grid.groundRows);
+  grid.columns = Real(kAirColumns);
+  grid.width = Real(kAirColumns);
+  return grid;
+}
+
+// How distances along a ray are spread over w in [0, 1]: dw/dt is the sum of 1 / (near + t), for the light
+// that is lost on the way and for rays that leave the air, and of 1 / (far + extent - t) for rays that sink
+// to the ground, or else 1 / sqrt(far^2 + (t - lowest)^2), where `far` is about as far from its lowest point
+// as a ray stays in the thick of the air.
+struct AirStretch {
+  Real extent;
+  Real near_;
+  Real far_;
+  Real lowest;
+  bool hitsGround;
+  Real start;  // the second term's exponential at t = 0
+  Real range;
+};
+
+ALPENGLOW_FN Real airTurn(IN(AirStretch) a, Real t) {
+  Real end = a.far_ + a.extent;
+  Real x = (t - a.lowest) / a.far_;
+  Real root = sqrt(x * x + REAL(1.0));
+  Real turn = x < REAL(0.0) ? REAL(1.0) / (root - x) : root + x;
+  return a.hitsGround ? end / (end - t) : turn;
+}
+
+ALPENGLOW_FN AirStretch airStretch(IN(Medium) m, IN(AirView) view, IN(Ray) ray) {
+  AirStretch a;
+  Real rMu = radiusAt(m, ray.h) * ray.mu;
+  Real gain2 = view.height * (REAL(2.0) * m.bottomRadius + view.height);
+  Real endMu = max(-(rMu + ray.extent), REAL(0.0));  // times Rg, of one that hits the ground
+  a.extent = max(ray.extent, REAL(1e-3));
+  a.near_ = REAL(1.0) / (view.extinction_ + max(ray.mu, REAL(0.0)) / view.height + REAL(1e-12));
+  a.far_ = ray.hitsGround ? gain2 / (endMu + sqrt(endMu * endMu + gain2)) : sqrt(gain2);
+  a.lowest = max(-rMu, REAL(0.0));
+  a.hitsGround = ray.hitsGround;
+  a.start = airTurn(a, REAL(0.0));
+  // Rays of no length have no range, but must not be divided by it.
+  a.range = max(log((REAL(1.0) + a.extent / a.near_) * airTurn(a, a.extent) / a.start), REAL(1e-6));
+  return a;
+}
+
+ALPENGLOW_FN Real airUnit(IN(AirStretch) a, Real t) {
+  Real inside = clamp(t, REAL(0.0), a.extent);
+  return clamp(log((REAL(1.0) + inside / a.near_) * airTurn(a, inside) / a.start) / a.range, REAL(0.0),
+               REAL(1.0));
+}
+
+// The inverse: a linear equation for rays that hit the ground, for others a quadratic one for the second
+// term's exponential.
+ALPENGLOW_FN Real airDistance(IN(AirStretch) a, Real w) {
+  Real q = exp(w * a.range);
+  Real end = a.far_ + a.extent;
+  Real sinking = (q - REAL(1.0)) * end / (end / a.near_ + q);
+  Real half_ = REAL(0.5) * a.far_ / a.near_;
+  Real b = REAL(1.0) + a.lowest / a.near_;
+  Real c = half_ + q * a.start;
+  Real x = REAL(2.0) * c / (b + sqrt(b * b + REAL(4.0) * half_ * c));
+  Real rising = a.lowest + REAL(0.5) * a.far_ * (x - REAL(1.0) / x);
+  Real t = a.hitsGround ? sinking : rising;
+  return w < REAL(1.0) ? clamp(t, REAL(0.0), a.extent) : a.extent;
+}
+
+// Distance of texel i. The first stands for the ray's beginning: means of next to nothing.
+ALPENGLOW_FN Real airTexelDistance(IN(AirStretch) a, int i) {
+  return airDistance(a, max(unitFromTexel(Real(i), Real(kAirDistances)),
+                            REAL(0.01) / Real(kAirDistances)));
+}
+
+// Texture coordinate of a distance.
+ALPENGLOW_FN Real airCoordinate(IN(AirStretch) a, Real t) {
+  return insetCoordinate(airUnit(a, t), Real(kAirDistances));
+}
+
+// A texel keeps ratios to the optical depth, which hardly change from texel to texel and have a limit at
+// distance 0: its mean over the channels, per metre, as a logarithm; the other two channels' and single
+// scattering (without phase functions) as shares of that; multiple scattering as a share too, but its
+// logarithm, because across the terminator it falls by orders of magnitude.
+ALPENGLOW_FN void encodeAir(Spectrum rayleigh, Spectrum mie, Spectrum multiple, Spectrum depth, Real t,
+                            OUT(Real4) first, OUT(Real4) second, OUT(Real4) third) {
+  Real mean = max((depth[0] + depth[1] + depth[2]) / REAL(3.0), darkness() * t);
+  Spectrum r = rayleigh / mean;
+  Spectrum mi = mie / mean;
+  Spectrum mu = log(max(multiple / mean, SPECTRUM(darkness())));
+  first = Real4(r[0], r[1], r[2], log(mean / t));
+  second = Real4(mi[0], mi[1], mi[2], depth[1] / mean);
+  third = Real4(mu[0], mu[1], mu[2], depth[2] / mean);
+}
+
+// What the texels say of the first t metres: mean optical depth; one event; several; depth.
+ALPENGLOW_FN Real airMeanDepth(Real4 first, Real t) { return exp(first[3]) * t; }
+
+ALPENGLOW_FN Spectrum airSingle(Real4 first, Real4 second, Real mean, Real phaseRayleigh,
+                                Real phaseMie) {
+  return (Spectrum(first[0], first[1], first[2]) * phaseRayleigh +
+          Spectrum(second[0], second[1], second[2]) * phaseMie) *
+         mean;
+}
+
+ALPENGLOW_FN Spectrum airMultiple(Real4 third, Real mean) {
+  return exp(Spectrum(third[0], third[1], third[2])) * mean;
+}
+
+ALPENGLOW_FN Spectrum airDepth(Real4 second, Real4 third, Real mean) {
+  return Spectrum(max(REAL(3.0) - second[3] - third[3], REAL(0.0)), second[3], third[3]) * mean;
+}

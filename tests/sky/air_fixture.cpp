@@ -1,0 +1,163 @@
+#include "tests/sky/air_fixture.h"
+
+#include <alpenglow/shaders/test_air_lookup.h>
+
+#include <algorithm>
+
+#include "atmosphere/api/context_impl.h"
+#include "engine/pipeline.h"
+
+namespace alpenglow::testing {
+namespace {
+
+constexpr VkShaderStageFlags kStages = VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+constexpr VkDescriptorSetLayoutBinding image(uint32_t i) {
+  return {i, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, kStages, nullptr};
+}
+constexpr VkDescriptorSetLayoutBinding kImages[] = {image(0), image(1), image(2)};
+constexpr VkDescriptorSetLayoutBinding kBuffers[] = {
+    {0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
+    {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}};
+constexpr uint32_t kMostQueries = 1u << 16;
+
+struct Objects {
+  engine::Device* device = nullptr;
+  sky::AirVolume* volume = nullptr;
+  VkDescriptorSetLayout imageLayout = VK_NULL_HANDLE, bufferLayout = VK_NULL_HANDLE;
+  VkDescriptorPool pool = VK_NULL_HANDLE;
+  VkDescriptorSet images = VK_NULL_HANDLE, buffers = VK_NULL_HANDLE;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  VkPipeline pipeline = VK_NULL_HANDLE;
+  headless::HostBuffer queries, answers;
+};
+
+Objects& objects() {
+  static Objects instance;
+  return instance;
+}
+
+}  // namespace
+
+void AirTest::TearDownTestSuite() {
+  Objects& o = objects();
+  if (o.device != nullptr) {
+    const engine::Dispatch& vk = o.device->vk();
+    const VkDevice handle = o.device->handle();
+    sky::AirVolume::destroy(o.volume, FrameInfo{});
+    vk.DestroyPipeline(handle, o.pipeline, o.device->allocator());
+    vk.DestroyPipelineLayout(handle, o.layout, o.device->allocator());
+    vk.DestroyDescriptorPool(handle, o.pool, o.device->allocator());
+    vk.DestroyDescriptorSetLayout(handle, o.imageLayout, o.device->allocator());
+    vk.DestroyDescriptorSetLayout(handle, o.bufferLayout, o.device->allocator());
+  }
+  o = Objects{};
+  SkyTest::TearDownTestSuite();
+}
+
+void AirTest::makeObjects() {
+  Objects& o = objects();
+  if (o.device != nullptr) return;
+  bake::Resources& resources = *context()->bake;
+  engine::Device& d = resources.device();
+  o.device = &d;
+  ASSERT_EQ(sky::AirVolume::create(resources, &o.volume), Status::Ok) << message();
+  ASSERT_EQ(engine::createSetLayout(d, kImages, 3, "air images", &o.imageLayout), Status::Ok);
+  ASSERT_EQ(engine::createSetLayout(d, kBuffers, 2, "air buffers", &o.bufferLayout), Status::Ok);
+  const engine::PoolPart parts[] = {{kImages, 3, 1}, {kBuffers, 2, 1}};
+  ASSERT_EQ(engine::createPool(d, parts, 2, "air", &o.pool), Status::Ok);
+  ASSERT_EQ(engine::allocateSets(d, o.pool, &o.imageLayout, 1, "air", &o.images), Status::Ok);
+  ASSERT_EQ(engine::allocateSets(d, o.pool, &o.bufferLayout, 1, "air", &o.buffers), Status::Ok);
+  const VkDescriptorSetLayout sets[] = {resources.tableLayout(), o.imageLayout, o.bufferLayout};
+  const VkPushConstantRange range = {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(LookupConstants)};
+  ASSERT_EQ(engine::createPipelineLayout(d, sets, 3, &range, 1, "air", &o.layout), Status::Ok);
+  engine::ComputePipelineDesc desc;
+  desc.shader = {shaders::kTestAirLookup, sizeof shaders::kTestAirLookup, "air_lookup.comp"};
+  desc.layout = o.layout;
+  ASSERT_EQ(engine::createComputePipeline(d, desc, &o.pipeline), Status::Ok) << message();
+
+  std::string error;
+  o.queries = device().createHostBuffer(kMostQueries * sizeof(AirQuery),
+                                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &error);
+  o.answers = device().createHostBuffer(kMostQueries * sizeof(AirAnswer),
+                                        VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &error);
+  ASSERT_TRUE(error.empty()) << error;
+  engine::DescriptorWriter images(o.images);
+  for (uint32_t i = 0; i < 3; ++i)
+    images.sampledImage(i, o.volume->image(i).view, resources.sampler());
+  ASSERT_EQ(images.flush(d), Status::Ok);
+  engine::DescriptorWriter buffers(o.buffers);
+  buffers.storageBuffer(0, o.queries.buffer()).storageBuffer(1, o.answers.buffer());
+  ASSERT_EQ(buffers.flush(d), Status::Ok);
+}
+
+sky::AirVolume* AirTest::volume() {
+  makeObjects();
+  return objects().volume;
+}
+
+VkDescriptorSet AirTest::volumeSet() {
+  makeObjects();
+  return objects().images;
+}
+
+VkDescriptorSetLayout AirTest::volumeLayout() {
+  makeObjects();
+  return objects().imageLayout;
+}
+
+void AirTest::fill(const SkyDraw& draw, Tables* with) {
+  Tables* const baked = with != nullptr ? with : tables();
+  sky::AirVolume* const filled = volume();
+  run([&](VkCommandBuffer commands) {
+    return filled->record(commands, *baked, draw) == Status::Ok;
+  });
+}
+
+LookupConstants AirTest::lookupConstants(const Parameters& parameters, const SkyDraw& draw) {
+  const sky::AirLookup lookup = sky::airLookup(parameters, draw);
+  const auto f = [](double value) { return static_cast<float>(value); };
+  LookupConstants k = {};
+  for (size_t i = 0; i < 3; ++i) {
+    k.up[i] = f(lookup.up[i]);
+    k.sun[i] = f(draw.sun.direction[i]);
+    k.azimuth[i] = f(lookup.sunAzimuth[i]);
+  }
+  k.altitude = f(sky::cameraAltitude(parameters, draw.camera));
+  k.horizon = f(lookup.view.slice.horizon);
+  k.span = f(lookup.view.slice.span);
+  k.bend = f(lookup.view.slice.bend);
+  k.extinction = f(lookup.view.extinction_);
+  k.height = f(lookup.view.height);
+  return k;
+}
+
+std::vector<AirAnswer> AirTest::ask(const SkyDraw& draw, const std::vector<AirQuery>& queries,
+                                    Tables* with) {
+  Tables* const baked = with != nullptr ? with : tables();
+  makeObjects();
+  Objects& o = objects();
+  EXPECT_LE(queries.size(), kMostQueries);
+  EXPECT_TRUE(o.volume->serves(*baked, draw));
+  EXPECT_EQ(o.volume->assertReadable(), Status::Ok);
+  std::copy(queries.begin(), queries.end(), static_cast<AirQuery*>(o.queries.data()));
+  LookupConstants constants = lookupConstants(baked->parameters(), draw);
+  constants.count = static_cast<float>(queries.size());
+  run([&](VkCommandBuffer commands) {
+    const engine::Dispatch& vk = o.device->vk();
+    const VkDescriptorSet sets[] = {baked->descriptorSet(), o.images, o.buffers};
+    vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, o.pipeline);
+    vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, o.layout, 0, 3, sets, 0,
+                             nullptr);
+    vk.CmdPushConstants(commands, o.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
+                        &constants);
+    vk.CmdDispatch(commands, (static_cast<uint32_t>(queries.size()) + 63) / 64, 1, 1);
+    engine::Barriers barriers;
+    barriers.memory(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                    VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+    return barriers.record(*o.device, commands) == Status::Ok;
+  });
+  const auto* answers = static_cast<const AirAnswer*>(o.answers.data());
+  return {answers, answers + queries.size()};
+}
+
+}  // namespace alpenglow::testing

@@ -1,0 +1,56 @@
+// An air volume of one's own, and queries of it through a small compute shader (air_lookup.comp).
+#pragma once
+
+#include "atmosphere/sky/air_volume.h"
+#include "tests/sky/sky_fixture.h"
+
+namespace alpenglow::testing {
+
+/// Where to look in the volume: a unit vector, and metres of air, or the negative share of all that
+/// there are.
+struct AirQuery {
+  float direction[3];
+  float inside;
+};
+
+/// From the volume, and (wanted) by integration. `inside`: metres of air; the fourth values else
+/// unused.
+struct AirAnswer {
+  float single[3], inside;
+  float multiple[3], unused0;
+  float depth[3], unused1;
+  float singleAlone[3], unused2;
+  float wantedSingle[3], hitsGround;
+  float wantedMultiple[3], extent;
+  float wantedDepth[3], inAtmosphere;
+};
+static_assert(sizeof(AirAnswer) == 112);
+
+/// Push constants that the test shaders share: what a lookup needs of a draw.
+struct LookupConstants {
+  float up[3], altitude;
+  float sun[3], count;
+  float azimuth[3], horizon;
+  float span, bend, extinction, height;
+};
+
+class AirTest : public SkyTest {
+ protected:
+  static void TearDownTestSuite();
+
+  /// One for all tests of a program, made at the first use.
+  sky::AirVolume* volume();
+  void fill(const SkyDraw& draw, Tables* with = nullptr);
+  /// Looks into the volume as it was filled last.
+  std::vector<AirAnswer> ask(const SkyDraw& draw, const std::vector<AirQuery>& queries,
+                             Tables* with = nullptr);
+  static LookupConstants lookupConstants(const Parameters& parameters, const SkyDraw& draw);
+  /// The volume's images for a shader of this stage, as set ALPENGLOW_AIR_SET.
+  VkDescriptorSet volumeSet();
+  VkDescriptorSetLayout volumeLayout();
+
+ private:
+  void makeObjects();
+};
+
+}  // namespace alpenglow::testing

@@ -1,0 +1,149 @@
+// The air volume against the integrals that it stands for, at all distances: single and multiple
+// scattering and optical depth, from the ground to space, by day and in twilight.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <random>
+
+#include "tests/sky/air_fixture.h"
+
+namespace alpenglow::testing {
+namespace {
+
+constexpr double kSunAzimuth = 0.5;
+constexpr double kSuns[] = {50.0, 10.0, 3.0, -3.0};
+
+struct Place {
+  const char* name;
+  double altitude;
+};
+constexpr Place kPlaces[] = {
+    {"2 m", 2.0}, {"1500 m", 1500.0}, {"10 km", 1e4}, {"30 km", 3e4}, {"400 km", 4e5}};
+
+double percent(std::vector<double>* errors, double share) {
+  if (errors->empty()) return 0.0;
+  const auto k = static_cast<std::ptrdiff_t>(share * double(errors->size() - 1));
+  std::nth_element(errors->begin(), errors->begin() + k, errors->end());
+  return 100.0 * (*errors)[static_cast<size_t>(k)];
+}
+
+/// Of what arrives from a segment, the worst channel, relative to ...
+struct AirErrors {
+  std::vector<double> own;     ///< the segment itself, of at least 100 m
+  std::vector<double> scene;   ///< the segment or a thousandth of the brightest ray
+  std::vector<double> single;  ///< its single scattering, or a hundredth of the segment
+  std::vector<double> depth;   ///< of its transmittance
+};
+
+class AirVolumeTest : public AirTest {
+ protected:
+  SkyDraw drawOf(double altitude, double elevation) {
+    double sun[3];
+    sunDirection(0.0, 0.0, radians(elevation), kSunAzimuth, sun);
+    return makeDraw(
+        cameraFromGeodetic(preset("earth"), 0.0, 0.0, altitude, 0.0, 0.0, 0.0, radians(60.0)),
+        vec(sun), {64, 64});
+  }
+
+  /// A unit vector at an elevation and an azimuth from the sun.
+  static AirQuery query(double elevation, double azimuth, double inside) {
+    AirQuery q;
+    double v[3];
+    sunDirection(0.0, 0.0, elevation, kSunAzimuth + azimuth, v);
+    for (size_t i = 0; i < 3; ++i) q.direction[i] = static_cast<float>(v[i]);
+    q.inside = static_cast<float>(inside);
+    return q;
+  }
+
+  /// Elevations that meet the air: all around, within 0.2 degrees of the horizon, about the sun.
+  std::vector<AirQuery> queriesOf(double altitude, double elevation) {
+    const Parameters earth = preset("earth");
+    const double dip = horizonDip(earth, altitude);
+    const double r = earth.bottomRadius_m + altitude;
+    const double top = r > earth.topRadius_m ? -std::acos(earth.topRadius_m / r) : 0.5 * kPi;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    std::vector<AirQuery> queries;
+    for (int i = 0; i < 600; ++i) {
+      const double azimuth = 2.0 * kPi * unit(random);
+      double e = -dip + radians(0.4) * (unit(random) - 0.5);
+      if (i % 3 == 1) {
+        const double share = std::pow(unit(random), 2.0);
+        e = i % 2 != 0 ? -dip + (top + dip) * share : -dip - (0.5 * kPi - dip) * share;
+      }
+      double a = azimuth;
+      if (i % 3 == 2) {
+        const double off = radians(6.0) * unit(random);
+        e = std::clamp(radians(elevation) + off * std::cos(azimuth), -dip - radians(4.0), top);
+        a = off * std::sin(azimuth);
+      }
+      e = std::clamp(e, -0.5 * kPi, top);
+      for (int k = 0; k < 12; ++k)
+        queries.push_back(query(e, a, 10.0 * std::pow(2e5, unit(random))));
+      for (int k = 0; k < 6; ++k) queries.push_back(query(e, a, -unit(random)));
+      queries.push_back(query(e, a, -1.0));
+    }
+    return queries;
+  }
+
+  static AirErrors errorsOf(const std::vector<AirAnswer>& answers) {
+    double brightest = 0.0;
+    for (const AirAnswer& a : answers)
+      for (int c = 0; c < 3; ++c)
+        brightest = std::max(brightest, double(a.wantedSingle[c]) + double(a.wantedMultiple[c]));
+    AirErrors errors;
+    for (const AirAnswer& a : answers) {
+      if (a.inAtmosphere == 0.0f || a.inside <= 0.0f) continue;
+      double own = 0.0, scene = 0.0, single = 0.0, depth = 0.0;
+      for (int c = 0; c < 3; ++c) {
+        const double wanted = double(a.wantedSingle[c]) + double(a.wantedMultiple[c]);
+        const double off = std::abs(double(a.single[c]) + double(a.multiple[c]) - wanted);
+        own = std::max(own, off / std::max(wanted, 1e-12));
+        scene = std::max(scene, off / std::max(wanted, 1e-3 * brightest));
+        single = std::max(single, std::abs(double(a.single[c]) - double(a.wantedSingle[c])) /
+                                      std::max(double(a.wantedSingle[c]), 1e-2 * wanted + 1e-12));
+        depth = std::max(depth, std::abs(std::exp(double(a.wantedDepth[c] - a.depth[c])) - 1.0));
+      }
+      if (a.inside >= 100.0f) {
+        errors.own.push_back(own);
+        errors.single.push_back(single);
+      }
+      errors.scene.push_back(scene);
+      errors.depth.push_back(depth);
+    }
+    return errors;
+  }
+
+  static std::string badAnswer(const std::vector<AirAnswer>& answers) {
+    for (size_t i = 0; i < answers.size(); ++i) {
+      const AirAnswer& a = answers[i];
+      for (int c = 0; c < 3; ++c)
+        for (const float value : {a.single[c], a.multiple[c], a.depth[c], a.singleAlone[c]})
+          if (!(std::isfinite(value) && value >= 0.0f))
+            return "query " + std::to_string(i) + ": " + std::to_string(value);
+    }
+    return "";
+  }
+};
+
+TEST_F(AirVolumeTest, IsTheLightOfPathsAtAllDistances) {
+  std::printf("%u bytes\n", static_cast<unsigned>(volume()->bytes()));
+  std::printf("per cent, p95 p99 max: own segment (>= 100 m) | scene | single | transmittance\n");
+  for (const Place& place : kPlaces) {
+    for (const double sun : kSuns) {
+      const SkyDraw draw = drawOf(place.altitude, sun);
+      fill(draw);
+      const std::vector<AirAnswer> answers = ask(draw, queriesOf(place.altitude, sun));
+      EXPECT_EQ(badAnswer(answers), "") << place.name << ", sun " << sun;
+      AirErrors e = errorsOf(answers);
+      std::printf("%7s, sun %3.0f: ", place.name, sun);
+      for (std::vector<double>* one : {&e.own, &e.scene, &e.single, &e.depth})
+        std::printf("%6.3f %6.3f %6.2f | ", percent(one, 0.95), percent(one, 0.99),
+                    percent(one, 1.0));
+      std::printf("%zu\n", e.own.size());
+    }
+  }
+}
+
+}  // namespace
+}  // namespace alpenglow::testing
