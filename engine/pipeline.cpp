@@ -202,10 +202,9 @@ Status checkTarget(const Device& device, const GraphicsPipelineDesc& desc) {
 VkPipelineRenderingCreateInfo renderingOf(const GraphicsPipelineDesc& desc,
                                           VkFormat colors[kMaxColorTargets]) {
   const VkFormat format = desc.depthFormat;
-  const bool stencil =
-      desc.stencil &&
-      (format == VK_FORMAT_D16_UNORM_S8_UINT || format == VK_FORMAT_D24_UNORM_S8_UINT ||
-       format == VK_FORMAT_D32_SFLOAT_S8_UINT);
+  const bool stencil = desc.stencil && (format == VK_FORMAT_D16_UNORM_S8_UINT ||
+                                        format == VK_FORMAT_D24_UNORM_S8_UINT ||
+                                        format == VK_FORMAT_D32_SFLOAT_S8_UINT);
   auto rendering =
       structure<VkPipelineRenderingCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO);
   rendering.viewMask = desc.viewMask;

@@ -60,8 +60,8 @@ struct VertexInput {
   uint32_t offset = 0;
 };
 
-/// By default a pipeline for a triangle that covers the viewport: no vertex input, triangle list, no
-/// no blending, no depth write. Never culls; viewport and scissor are dynamic. The front of a
+/// By default a pipeline for a triangle that covers the viewport: no vertex input, triangle list,
+/// no no blending, no depth write. Never culls; viewport and scissor are dynamic. The front of a
 /// triangle is where its vertices run counter-clockwise on the screen (y down).
 struct GraphicsPipelineDesc {
   Shader vertex;
@@ -74,7 +74,7 @@ struct GraphicsPipelineDesc {
   bool adjacency = false;                      ///< A list of triangles with adjacency.
   ColorTarget colors[kMaxColorTargets];        ///< Those before the first without a format.
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< UNDEFINED: no depth attachment.
-  bool stencil = true;  ///< A depthFormat with stencil is attached for both.
+  bool stencil = true;                         ///< A depthFormat with stencil is attached for both.
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
   uint32_t viewMask = 0;                     ///< Of dynamic rendering.
   VkRenderPass renderPass = VK_NULL_HANDLE;  ///< Null: dynamic rendering with the formats above.

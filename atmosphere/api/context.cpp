@@ -7,14 +7,22 @@ namespace alpenglow {
 inline namespace v1 {
 namespace {
 
-constexpr CapabilityFlags kAllCapabilities = kCapabilityBake | kCapabilitySky;
+constexpr CapabilityFlags kDefaultCapabilities = kCapabilityBake | kCapabilitySky;
+constexpr CapabilityFlags kAllCapabilities =
+    kDefaultCapabilities | kCapabilityAir | kCapabilityShafts;
 
 // Each capability asks for what it alone needs.
 Requirements requirementsOf(CapabilityFlags wanted) {
   Requirements needed;
   needed.apiVersion = VK_API_VERSION_1_3;
   needed.synchronization2 = true;
-  needed.dynamicRendering = (wanted & kCapabilitySky) != 0;
+  const bool air = (wanted & kCapabilityAir) != 0, shafts = (wanted & kCapabilityShafts) != 0;
+  needed.dynamicRendering = shafts || (wanted & kCapabilitySky) != 0;
+  needed.features.dualSrcBlend = air;
+  needed.features.geometryShader = shafts;
+  needed.features.depthClamp = shafts;
+  needed.features.shaderClipDistance = shafts;
+  needed.features.independentBlend = shafts;
   return needed;
 }
 
@@ -31,9 +39,9 @@ Status queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstan
   if (out == nullptr || (wanted & ~kAllCapabilities) != 0) {
     return reportTo(diagnostic, user, Status::InvalidArgument,
                     "queryRequirements needs a place for its answer and capabilities among "
-                    "kCapabilityBake and kCapabilitySky.");
+                    "kCapabilityBake, kCapabilitySky, kCapabilityAir and kCapabilityShafts.");
   }
-  *out = requirementsOf(wanted == 0 ? kAllCapabilities : wanted);
+  *out = requirementsOf(wanted == 0 ? kDefaultCapabilities : wanted);
   return engine::checkPhysicalDevice(getInstanceProcAddr, instance, physicalDevice, *out,
                                      diagnostic, user);
 }
@@ -46,17 +54,18 @@ Status createContext(const ContextDesc& desc, Context** out) {
   *out = nullptr;
   if ((desc.capabilities & ~kAllCapabilities) != 0) {
     return reportTo(desc.diagnostic, desc.user, Status::InvalidArgument,
-                    "ContextDesc::capabilities has unknown bits, but only kCapabilityBake and "
-                    "kCapabilitySky exist.");
+                    "ContextDesc::capabilities has unknown bits, but only kCapabilityBake, "
+                    "kCapabilitySky, kCapabilityAir and kCapabilityShafts exist.");
   }
   auto* context = new (std::nothrow) Context;
   if (context == nullptr) {
     return reportTo(desc.diagnostic, desc.user, Status::OutOfHostMemory,
                     "A context found no host memory.");
   }
-  context->capabilities = desc.capabilities == 0 ? kAllCapabilities : desc.capabilities;
+  context->capabilities = desc.capabilities == 0 ? kDefaultCapabilities : desc.capabilities;
   Requirements needed = requirementsOf(context->capabilities);
-  needed.dynamicRendering = false;  // a host may draw in render passes; createView asks
+  // A host may draw in render passes: createView asks. Shafts have scopes of their own.
+  needed.dynamicRendering = (context->capabilities & kCapabilityShafts) != 0;
   Status status = engine::checkEnabled(needed, desc.enabled, desc.diagnostic, desc.user);
   if (status == Status::Ok) status = engine::Device::create(desc, &context->device);
   if (status == Status::Ok) status = bake::Resources::create(*context->device, &context->bake);
@@ -99,7 +108,10 @@ Status requireCapability(const Context& context, CapabilityFlags capability, con
   if ((context.capabilities & capability) != 0) return Status::Ok;
   return context.device->fail(Status::Unsupported, VK_SUCCESS,
                               "%s needs a context with %s, but this one was made without it.", call,
-                              capability == kCapabilityBake ? "kCapabilityBake" : "kCapabilitySky");
+                              capability == kCapabilityBake  ? "kCapabilityBake"
+                              : capability == kCapabilitySky ? "kCapabilitySky"
+                              : capability == kCapabilityAir ? "kCapabilityAir"
+                                                             : "kCapabilityShafts");
 }
 
 }  // namespace v1

@@ -21,12 +21,12 @@ Status checkScene(const engine::Device& device, const ShaftsDesc& desc) {
   if (scene.view == VK_NULL_HANDLE || scene.extent.width == 0 || scene.extent.height == 0 ||
       scene.extent.width > limits.maxFramebufferWidth ||
       scene.extent.height > limits.maxFramebufferHeight) {
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "ShaftsDesc::sceneDepth has %s view and %u x %u pixels, but needs a view and "
-                       "from 1 x 1 to %u x %u pixels.",
-                       scene.view == VK_NULL_HANDLE ? "no" : "a", scene.extent.width,
-                       scene.extent.height, limits.maxFramebufferWidth,
-                       limits.maxFramebufferHeight);
+    return device.fail(
+        Status::InvalidArgument, VK_SUCCESS,
+        "ShaftsDesc::sceneDepth has %s view and %u x %u pixels, but needs a view and "
+        "from 1 x 1 to %u x %u pixels.",
+        scene.view == VK_NULL_HANDLE ? "no" : "a", scene.extent.width, scene.extent.height,
+        limits.maxFramebufferWidth, limits.maxFramebufferHeight);
   }
   if ((device.formatProperties(scene.format).optimalTilingFeatures &
        VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) == 0) {
@@ -74,6 +74,19 @@ Status checkShaftsDesc(const engine::Device& device, const ShaftsDesc& desc) {
                        desc.vertexStride, desc.vertexOffset, limits.maxVertexInputBindingStride);
   }
   return checkScene(device, desc);
+}
+
+Status checkViewport(const engine::Device& device, const ShaftsDesc& desc, const SkyDraw& draw) {
+  const VkRect2D& area = draw.viewport;
+  const VkExtent2D& whole = desc.sceneDepth.extent;
+  const int64_t right = int64_t{area.offset.x} + area.extent.width;
+  const int64_t bottom = int64_t{area.offset.y} + area.extent.height;
+  if (right <= whole.width && bottom <= whole.height) return Status::Ok;
+  return device.fail(
+      Status::InvalidArgument, VK_SUCCESS,
+      "SkyDraw::viewport reaches to pixel (%lld, %lld), but the scene's depth has %u "
+      "x %u pixels.",
+      static_cast<long long>(right), static_cast<long long>(bottom), whole.width, whole.height);
 }
 
 Status checkCasters(const engine::Device& device, const Casters& casters) {

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "atmosphere/shafts/sun_map.h"
+#include "atmosphere/sky/air_volume.h"
 #include "atmosphere/sky/parts.h"
 #include "atmosphere/sky/projection.h"
-#include "atmosphere/sky/sky_slice.h"
 
 namespace alpenglow::shafts {
 namespace {
@@ -135,6 +135,11 @@ ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,
   frame.pixels[1] = 2.0f / static_cast<float>(draw.viewport.extent.height);
   frame.pixels[2] = static_cast<float>(desc.method);
   frame.pixels[3] = desc.projection == Projection::Orthographic ? 1.0f : 0.0f;
+
+  const sky::AirLookup air = sky::airLookup(parameters, draw);
+  const double slice[3] = {air.view.slice.horizon, air.view.slice.span, air.view.slice.bend};
+  store(frame.airSlice, slice, 1.0, air.view.extinction_);
+  store(frame.airSun, air.sunAzimuth, 1.0, air.view.height);
   return frame;
 }
 

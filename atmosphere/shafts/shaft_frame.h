@@ -8,7 +8,7 @@ namespace alpenglow::shafts {
 /// A box along the sun's beam about the casters, in the planet's frame.
 struct SunMapPlace {
   double center[3] = {};
-  double u[3] = {}, v[3] = {}, sun[3] = {};           ///< Orthogonal unit vectors.
+  double u[3] = {}, v[3] = {}, sun[3] = {};          ///< Orthogonal unit vectors.
   double halfU = 1.0, halfV = 1.0, halfDepth = 1.0;  ///< Metres.
 };
 /// The least box; `texels` on a side, of which two at each edge are left free.
@@ -27,8 +27,10 @@ struct ShaftFrame {
   float mapDepth[4];
   float wall[4];
   float pixels[4];
+  float airSlice[4];
+  float airSun[4];
 };
-static_assert(sizeof(ShaftFrame) == 224, "As std140 lays it out");
+static_assert(sizeof(ShaftFrame) == 256, "As std140 lays it out");
 
 /// Everything is computed in double and rounded once.
 ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,

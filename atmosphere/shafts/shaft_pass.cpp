@@ -4,12 +4,14 @@
 #include <alpenglow/shaders/shaft_volume_fragment.h>
 #include <alpenglow/shaders/shaft_volume_geometry.h>
 #include <alpenglow/shaders/shaft_wall_fragment.h>
+#include <alpenglow/shaders/shaft_wall_fragment_volume.h>
 #include <alpenglow/shaders/shaft_wall_geometry.h>
 
 #include <algorithm>
 #include <limits>
 #include <new>
 
+#include "atmosphere/sky/air_set.h"
 #include "engine/barriers.h"
 #include "engine/structure.h"
 
@@ -72,7 +74,9 @@ void Shafts::destroy(Shafts* shafts, const FrameInfo& frame) {
   defer(VK_OBJECT_TYPE_PIPELINE_LAYOUT, shafts->layout_);
   defer(VK_OBJECT_TYPE_DESCRIPTOR_POOL, shafts->pool_);
   defer(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, shafts->setLayout_);
-  for (engine::Image& image : shafts->targets_) engine::deferImage(device, frame.submitting, &image);
+  defer(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, shafts->airLayout_);
+  for (engine::Image& image : shafts->targets_)
+    engine::deferImage(device, frame.submitting, &image);
   engine::deferBuffer(device, frame.submitting, &shafts->frame_);
   engine::deferBlock(device, frame.submitting, &shafts->memory_);
   shafts->map_.destroy(frame);
@@ -89,10 +93,10 @@ Status Shafts::make() {
 }
 
 Status Shafts::makeTargets() {
-  Status status = engine::createBuffer(
-      device_, sizeof(shafts::ShaftFrame),
-      VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-      "Alpenglow shaft frame", &frame_);
+  Status status =
+      engine::createBuffer(device_, sizeof(shafts::ShaftFrame),
+                           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                           "Alpenglow shaft frame", &frame_);
   if (status != Status::Ok) return status;
   const bool paper = desc_.method == ShaftMethod::Paper;
   const uint32_t count = paper ? 2 : exact() ? 1 : 0;
@@ -139,21 +143,28 @@ Status Shafts::makeSet() {
 }
 
 Status Shafts::makePipelines() {
-  const VkDescriptorSetLayout sets[] = {resources_.tableLayout(), setLayout_};
-  const Status status = engine::createPipelineLayout(device_, sets, 2, &shafts::kPlaceRange, 1,
-                                                     "Alpenglow shafts", &layout_);
-  return status == Status::Ok ? makePipeline(false, &pipeline_) : status;
+  Status status = sky::createAirSetLayout(device_, &airLayout_);
+  if (status != Status::Ok) return status;
+  const VkDescriptorSetLayout sets[] = {resources_.tableLayout(), setLayout_, airLayout_};
+  status = engine::createPipelineLayout(device_, sets, 3, &shafts::kPlaceRange, 1,
+                                        "Alpenglow shafts", &layout_);
+  if (status == Status::Ok) status = makePipeline(false, &pipeline_);
+  if (status == Status::Ok && looksUp()) status = makePipeline(true, &volumePipeline_);
+  return status;
 }
 
 Status Shafts::makePipeline(bool fromVolume, VkPipeline* out) {
   namespace s = alpenglow::shaders;
-  (void)fromVolume;
   const bool reversed = desc_.depth == DepthConvention::Reversed;
   engine::GraphicsPipelineDesc desc;
   desc.vertex = {s::kShaftCaster, sizeof s::kShaftCaster, "caster.vert"};
   if (exact()) {
     desc.geometry = {s::kShaftWallGeometry, sizeof s::kShaftWallGeometry, "wall.geom"};
-    desc.fragment = {s::kShaftWallFragment, sizeof s::kShaftWallFragment, "wall.frag"};
+    desc.fragment =
+        fromVolume
+            ? engine::Shader{s::kShaftWallFragmentVolume, sizeof s::kShaftWallFragmentVolume,
+                             "wall.frag (volume)"}
+            : engine::Shader{s::kShaftWallFragment, sizeof s::kShaftWallFragment, "wall.frag"};
     desc.colors[0] = {targets_[0].desc.format, engine::Blend::Add};
   } else {
     desc.geometry = {s::kShaftVolumeGeometry, sizeof s::kShaftVolumeGeometry, "volume.geom"};
@@ -162,8 +173,8 @@ Status Shafts::makePipeline(bool fromVolume, VkPipeline* out) {
     desc.colors[1] = {targets_[1].desc.format, engine::Blend::Max};
   }
   const engine::SpecConstant constants[] = {
-      engine::specBool(0, desc_.projection == Projection::Orthographic),
-      engine::specBool(1, reversed)};
+      engine::specBool(6, desc_.projection == Projection::Orthographic),
+      engine::specBool(7, reversed)};
   desc.constants = constants;
   desc.constantCount = 2;
   desc.layout = layout_;
@@ -177,8 +188,7 @@ Status Shafts::makePipeline(bool fromVolume, VkPipeline* out) {
   return engine::createGraphicsPipeline(device_, desc, out);
 }
 
-Status Shafts::recordSunMap(VkCommandBuffer commands, const double sun[3],
-                            const Casters& casters) {
+Status Shafts::recordSunMap(VkCommandBuffer commands, const double sun[3], const Casters& casters) {
   if (!mapped()) return Status::Ok;
   return map_.record(commands, sun, casters);
 }
@@ -196,8 +206,8 @@ Status Shafts::record(VkCommandBuffer commands, const Tables& tables, const SkyD
                       const Casters& casters, VkDescriptorSet air) {
   Status status = checkMap(draw);
   if (status != Status::Ok) return status;
-  status = updateFrame(
-      commands, shafts::makeShaftFrame(tables.parameters(), desc_, map_.place(), draw));
+  status =
+      updateFrame(commands, shafts::makeShaftFrame(tables.parameters(), desc_, map_.place(), draw));
   if (status == Status::Ok && targetCount_ > 0)
     status = drawShadows(commands, tables, draw, casters, air);
   if (status != Status::Ok) return status;
@@ -209,8 +219,9 @@ Status Shafts::record(VkCommandBuffer commands, const Tables& tables, const SkyD
 Status Shafts::updateFrame(VkCommandBuffer commands, const shafts::ShaftFrame& frame) {
   constexpr VkPipelineStageFlags2 kReaders = VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT;
   engine::Barriers barriers;
-  barriers.memory(kReaders, VK_ACCESS_2_NONE, VK_PIPELINE_STAGE_2_CLEAR_BIT |
-                  VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+  barriers.memory(kReaders, VK_ACCESS_2_NONE,
+                  VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
+                  VK_ACCESS_2_TRANSFER_WRITE_BIT);
   Status status = barriers.record(device_, commands);
   if (status != Status::Ok) return status;
   device_.vk().CmdUpdateBuffer(commands, frame_.handle, 0, sizeof frame, &frame);
@@ -252,18 +263,17 @@ Status Shafts::drawShadows(VkCommandBuffer commands, const Tables& tables, const
   const engine::Dispatch& vk = device_.vk();
   const VkDescriptorSet sets[] = {tables.descriptorSet(), set_, air};
   vk.CmdBeginRendering(commands, &rendering);
-  vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, 2, sets, 0,
-                           nullptr);
+  const bool lookUp = looksUp() && air != VK_NULL_HANDLE;
+  vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, lookUp ? 3 : 2,
+                           sets, 0, nullptr);
   CasterPass pass;
   pass.device = &device_;
   pass.commands = commands;
   pass.layout = layout_;
   pass.eye = draw.camera.position_m;
-  shafts::drawCasters(pass, air != VK_NULL_HANDLE ? volumePipeline_ : pipeline_, draw.viewport,
-                      casters);
+  shafts::drawCasters(pass, lookUp ? volumePipeline_ : pipeline_, draw.viewport, casters);
   vk.CmdEndRendering(commands);
-  for (uint32_t i = 0; i < targetCount_; ++i)
-    barriers.image(targets_[i], engine::kFragmentSampled);
+  for (uint32_t i = 0; i < targetCount_; ++i) barriers.image(targets_[i], engine::kFragmentSampled);
   return barriers.record(device_, commands);
 }
 
@@ -274,8 +284,8 @@ bool Shafts::serves(const Tables& tables, const SkyDraw& draw) const {
   return tablesId_ == tables.id() && same(a.position_m, b.position_m) &&
          same(a.forward, b.forward) && same(a.up, b.up) && a.fov == b.fov &&
          a.height_m == b.height_m && same(draw_.sun.direction, draw.sun.direction) &&
-         p.offset.x == q.offset.x && p.offset.y == q.offset.y &&
-         p.extent.width == q.extent.width && p.extent.height == q.extent.height;
+         p.offset.x == q.offset.x && p.offset.y == q.offset.y && p.extent.width == q.extent.width &&
+         p.extent.height == q.extent.height;
 }
 
 }  // namespace v1

@@ -1,5 +1,5 @@
-// The passes that find a frame's shadows in the air: what the public handle alpenglow::Shafts points
-// to.
+// The passes that find a frame's shadows in the air: what the public handle alpenglow::Shafts
+// points to.
 #pragma once
 
 #include "atmosphere/bake/table_set.h"
@@ -12,6 +12,8 @@ namespace shafts {
 ShaftsDesc completed(const ShaftsDesc& desc);
 /// Ok, or a sentence that names the wrong field. Of a completed description.
 Status checkShaftsDesc(const engine::Device& device, const ShaftsDesc& desc);
+/// Whether the draw's viewport lies in the scene's picture.
+Status checkViewport(const engine::Device& device, const ShaftsDesc& desc, const SkyDraw& draw);
 Status checkCasters(const engine::Device& device, const Casters& casters);
 
 }  // namespace shafts
@@ -42,6 +44,9 @@ struct Shafts {
       : resources_(resources), device_(resources.device()), desc_(desc), map_(resources) {}
   bool exact() const { return desc_.method == ShaftMethod::Exact; }
   bool mapped() const { return desc_.method != ShaftMethod::Paper; }
+  /// Whether light comes from an air volume when there is one: a camera's rays share their
+  /// observer.
+  bool looksUp() const { return exact() && desc_.projection != Projection::Orthographic; }
   Status make();
   Status makeTargets();
   Status makeSet();
@@ -60,7 +65,7 @@ struct Shafts {
   engine::Image targets_[2];  ///< Sums; bounds of the paper's.
   uint32_t targetCount_ = 0;
   engine::MemoryBlock memory_;
-  VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
+  VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE, airLayout_ = VK_NULL_HANDLE;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;

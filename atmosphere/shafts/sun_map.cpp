@@ -10,11 +10,10 @@
 namespace alpenglow::shafts {
 namespace {
 
-constexpr ImageState kDepthDrawn = {VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-                                    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT |
-                                        VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-                                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
-                                        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+constexpr ImageState kDepthDrawn = {
+    VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
 /// By the blocks' dispatch, by geometry and by fragment shaders.
 constexpr ImageState kReadByAll = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                                    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
@@ -62,8 +61,8 @@ Status SunMap::makeImages() {
 }
 
 Status SunMap::makeSets() {
-  Status status = engine::createSetLayout(device_, kBindings, 2, "Alpenglow sun blocks",
-                                          &setLayout_);
+  Status status =
+      engine::createSetLayout(device_, kBindings, 2, "Alpenglow sun blocks", &setLayout_);
   if (status != Status::Ok) return status;
   const engine::PoolPart part = {kBindings, 2, 2};
   status = engine::createPool(device_, &part, 1, "Alpenglow sun blocks", &pool_);
@@ -96,8 +95,8 @@ Status SunMap::makePipelines(const ShaftsDesc& desc) {
   draw.depthCompare = VK_COMPARE_OP_LESS;
   status = engine::createGraphicsPipeline(device_, draw, &drawPipeline_);
   if (status != Status::Ok || !hasBlocks_) return status;
-  status = engine::createPipelineLayout(device_, &setLayout_, 1, nullptr, 0,
-                                        "Alpenglow sun blocks", &blocksLayout_);
+  status = engine::createPipelineLayout(device_, &setLayout_, 1, nullptr, 0, "Alpenglow sun blocks",
+                                        &blocksLayout_);
   const engine::Shader shaders[2] = {
       {s::kSunBlocks, sizeof s::kSunBlocks, "sun_blocks"},
       {s::kSunBlocksAround, sizeof s::kSunBlocksAround, "sun_blocks (around)"}};

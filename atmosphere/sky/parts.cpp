@@ -115,9 +115,9 @@ ViewportSize viewportSize(const SkyDraw& draw) {
 
 double pixelAngle(const ViewDesc& desc, const SkyDraw& draw) {
   const ViewportSize size = viewportSize(draw);
-  return desc.projection == Projection::Fisheye
-             ? draw.camera.fov / size.least
-             : 2.0 * std::tan(0.5 * draw.camera.fov) / size.height;
+  if (desc.projection == Projection::Fisheye) return draw.camera.fov / size.least;
+  if (desc.projection == Projection::Orthographic) return draw.camera.height_m / size.height;
+  return 2.0 * std::tan(0.5 * draw.camera.fov) / size.height;
 }
 
 Visible visible(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw,
@@ -140,6 +140,12 @@ Visible visible(const Parameters& parameters, const ViewDesc& desc, const SkyDra
 
 Parts cut(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw) {
   const VkExtent2D& whole = draw.viewport.extent;
+  if (desc.projection == Projection::Orthographic) {
+    Parts one;
+    one.parts[0] = {{{0, 0}, whole}, {true, true, false}};
+    one.count = 1;
+    return one;
+  }
   const uint32_t columns = std::clamp(whole.width / kLeastTile, 1u, Parts::kSide);
   const uint32_t rows = std::clamp(whole.height / kLeastTile, 1u, Parts::kSide);
   Parts result;

@@ -35,7 +35,8 @@ struct Part {
   Visible visible;
 };
 
-/// Parts that together are the viewport, and do not overlap.
+/// Parts that together are the viewport, and do not overlap; one for an orthographic camera, which
+/// may see anything but the sun's disc.
 struct Parts {
   static constexpr uint32_t kSide = 8;  ///< Most columns and rows.
   std::array<Part, kSide * kSide> parts;
@@ -54,7 +55,7 @@ struct ViewportSize {
   double width, height, least;
 };
 ViewportSize viewportSize(const SkyDraw& draw);
-/// Of a pixel at the centre of the view, radians.
+/// Of a pixel at the centre of the view, radians; orthographic: metres.
 double pixelAngle(const ViewDesc& desc, const SkyDraw& draw);
 
 }  // namespace alpenglow::sky

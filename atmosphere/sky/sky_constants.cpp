@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "atmosphere/sky/projection.h"
 #include "atmosphere/sky/sky_pass.h"
 
 namespace alpenglow::sky {
@@ -92,24 +93,32 @@ void sunAzimuth(const SkyDraw& draw, double out[3]) {
   for (int i = 0; i < 3; ++i) out[i] *= sine > 1e-12 ? 1.0 / sine : 0.0;
 }
 
-Status checkDraw(const engine::Device& device, const ViewDesc& desc, const SkyDraw& draw) {
+Status checkDirection(const engine::Device& device, const char* name, const double direction[3]) {
+  return unit(direction) ? Status::Ok : refuse(device, name, direction, "a unit vector");
+}
+
+Status checkDraw(const engine::Device& device, Projection projection, const SkyDraw& draw) {
   const Camera& c = draw.camera;
   const double r2 = dot(c.position_m, c.position_m);
   if (!(r2 > 0.0 && r2 < 1e30)) {
     return refuse(device, "Camera::position_m", c.position_m,
                   "finite, away from the planet's centre and within 1e15 m of it");
   }
-  if (!unit(c.forward)) return refuse(device, "Camera::forward", c.forward, "a unit vector");
-  if (!unit(c.up)) return refuse(device, "Camera::up", c.up, "a unit vector");
+  Status status = checkDirection(device, "Camera::forward", c.forward);
+  if (status == Status::Ok) status = checkDirection(device, "Camera::up", c.up);
+  if (status != Status::Ok) return status;
   if (!(std::abs(dot(c.forward, c.up)) < 1e-4))
     return refuse(device, "Camera::up", c.up, "orthogonal to Camera::forward");
-  const bool fisheye = desc.projection == Projection::Fisheye;
-  if (!(c.fov > 0.0 && (fisheye ? c.fov <= 2.0 * kPi + 1e-9 : c.fov < kPi))) {
+  const bool fisheye = projection == Projection::Fisheye;
+  const bool parallel = projection == Projection::Orthographic;
+  if (parallel && !(c.height_m > 0.0 && c.height_m < 1e9))
+    return refuse(device, "Camera::height_m", c.height_m, "above 0 and below 1e9 metres");
+  if (!parallel && !(c.fov > 0.0 && (fisheye ? c.fov <= 2.0 * kPi + 1e-9 : c.fov < kPi))) {
     return refuse(device, "Camera::fov", c.fov,
                   fisheye ? "above 0 and at most 2 pi radians" : "above 0 and below pi radians");
   }
-  if (!unit(draw.sun.direction))
-    return refuse(device, "Sun::direction", draw.sun.direction, "a unit vector");
+  status = checkDirection(device, "Sun::direction", draw.sun.direction);
+  if (status != Status::Ok) return status;
   if (!(draw.sun.discRadius >= 0.0 && draw.sun.discRadius < 0.5 * kPi))
     return refuse(device, "Sun::discRadius", draw.sun.discRadius, "from 0 to below pi / 2 radians");
   for (uint32_t i = 0; i < kSpectrumSize; ++i)
@@ -124,20 +133,19 @@ SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc,
                            const SkyDraw& draw) {
   const Camera& c = draw.camera;
   const ViewportSize v = viewportSize(draw);
-  const bool fisheye = desc.projection == Projection::Fisheye;
-  const double tangent = fisheye ? 1.0 : std::tan(0.5 * c.fov);
+  const PictureEdges edges = pictureEdges(desc.projection, draw);
   const double pixel = pixelAngle(desc, draw);
   const double texel =
       kPi * parameters.bottomRadius_m / std::max(1.0, double(desc.groundAlbedo.height));
-  const DrawnDisc disc = drawnDisc(draw.sun.discRadius, pixel);
+  const bool parallel = desc.projection == Projection::Orthographic;
+  const DrawnDisc disc = drawnDisc(parallel ? 0.0 : draw.sun.discRadius, pixel);
   const double scale = draw.radianceScale == 0.0 ? 1.0 : draw.radianceScale;
 
   SkyConstants k = {};
   store(k.upAltitude, c.position_m, 1.0 / cameraRadius(c), cameraAltitude(parameters, c));
   store(k.forwardPixel, c.forward, 1.0, pixel);
-  store(k.rightHalfAngle, cameraRight(c).data(), fisheye ? 1.0 : tangent * v.width / v.height,
-        0.5 * c.fov);
-  store(k.downMapTexel, c.up, -tangent, texel);
+  store(k.rightHalfAngle, edges.right, 1.0, 0.5 * c.fov);
+  store(k.downMapTexel, edges.down, 1.0, texel);
   store(k.sunDiscChord, draw.sun.direction, 1.0, disc.chord);
   store(k.irradianceDisc, draw.sun.irradiance.value, scale, disc.radiance);
   const physics_f64::SliceView slice = sliceView(parameters, cameraAltitude(parameters, c));
@@ -148,6 +156,40 @@ SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc,
   double azimuth[3];
   sunAzimuth(draw, azimuth);
   store(k.sunAzimuth, azimuth, 1.0, slice.bend);
+  return k;
+}
+
+Status checkDepthRange(const engine::Device& device, Projection projection,
+                       const DepthRange& range) {
+  const bool parallel = projection == Projection::Orthographic;
+  const double n = range.near_m, f = range.far_m;
+  const bool good = parallel ? std::abs(n) < 1e12 && f > n && f < 1e12
+                             : n > 0.0 && n < 1e12 && (f == 0.0 || (f > n && f < 1e15));
+  if (good) return Status::Ok;
+  return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                     "SkyDraw::depth runs from %g to %g m, but must run from %s.", n, f,
+                     parallel ? "one distance below 1e12 m to a greater one"
+                              : "a distance above 0 to a greater one, or to 0 for infinitely far");
+}
+
+AirConstants makeAirConstants(const Parameters& parameters, const ViewDesc& desc,
+                              const SkyDraw& draw) {
+  const Camera& c = draw.camera;
+  const PictureEdges edges = pictureEdges(desc.projection, draw);
+  const DepthScale depth = depthScale(desc.projection, desc.depth, draw.depth);
+  const AirLookup air = airLookup(parameters, draw);
+  const physics_f64::SliceView& slice = air.view.slice;
+  const double views[3] = {slice.horizon, slice.span, slice.bend};
+  AirConstants k = {};
+  store(k.upAltitude, air.up, 1.0, cameraAltitude(parameters, c));
+  store(k.forwardA, c.forward, 1.0, depth.a);
+  store(k.rightB, edges.right, 1.0, depth.b);
+  store(k.downExtinction, edges.down, 1.0, air.view.extinction_);
+  store(k.sunHeight, draw.sun.direction, 1.0, air.view.height);
+  store(k.irradiance, draw.sun.irradiance.value,
+        draw.radianceScale == 0.0 ? 1.0 : draw.radianceScale, 0.0);
+  store(k.slice, views, 1.0, 0.0);
+  store(k.sunAzimuth, air.sunAzimuth, 1.0, 0.0);
   return k;
 }
 

@@ -2,10 +2,14 @@
 
 #include <alpenglow/shaders/sky_fragment.h>
 #include <alpenglow/shaders/sky_fragment_map.h>
+#include <alpenglow/shaders/sky_fragment_map_shafts.h>
 #include <alpenglow/shaders/sky_fragment_map_slice.h>
+#include <alpenglow/shaders/sky_fragment_map_slice_shafts.h>
 #include <alpenglow/shaders/sky_fragment_map_slice_standard.h>
 #include <alpenglow/shaders/sky_fragment_map_standard.h>
+#include <alpenglow/shaders/sky_fragment_shafts.h>
 #include <alpenglow/shaders/sky_fragment_slice.h>
+#include <alpenglow/shaders/sky_fragment_slice_shafts.h>
 #include <alpenglow/shaders/sky_fragment_slice_standard.h>
 #include <alpenglow/shaders/sky_fragment_standard.h>
 #include <alpenglow/shaders/sky_vertex.h>
@@ -15,6 +19,24 @@
 
 namespace alpenglow {
 namespace sky {
+
+namespace {
+
+Status checkSceneDepth(const engine::Device& device, const ViewDesc& desc) {
+  const SceneDepth& scene = desc.sceneDepth;
+  if (scene.view == VK_NULL_HANDLE) return Status::Ok;
+  if (scene.extent.width == 0 || scene.extent.height == 0 ||
+      desc.samples != VK_SAMPLE_COUNT_1_BIT || desc.projection == Projection::Fisheye) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "ViewDesc::sceneDepth has %u x %u pixels, for a view of %u samples and "
+                       "projection %u, but needs its size, one sample and no fisheye.",
+                       scene.extent.width, scene.extent.height, static_cast<uint32_t>(desc.samples),
+                       static_cast<uint32_t>(desc.projection));
+  }
+  return Status::Ok;
+}
+
+}  // namespace
 
 Status checkViewDesc(const engine::Device& device, const ViewDesc& desc) {
   const VkFormatFeatureFlags features =
@@ -50,11 +72,11 @@ Status checkViewDesc(const engine::Device& device, const ViewDesc& desc) {
                        "at a time.",
                        desc.viewMask);
   }
-  if (desc.projection > Projection::Fisheye || desc.depth > DepthConvention::Reversed ||
+  if (desc.projection > Projection::Orthographic || desc.depth > DepthConvention::Reversed ||
       desc.mie > MieStorage::Packed || desc.solver > Solver::Standard) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "ViewDesc has projection %u, depth %u, mie %u and solver %u, but each must "
-                       "be 0 or 1.",
+                       "ViewDesc has projection %u, depth %u, mie %u and solver %u, but the "
+                       "greatest are 2, 1, 1 and 1.",
                        static_cast<uint32_t>(desc.projection), static_cast<uint32_t>(desc.depth),
                        static_cast<uint32_t>(desc.mie), static_cast<uint32_t>(desc.solver));
   }
@@ -66,17 +88,18 @@ Status checkViewDesc(const engine::Device& device, const ViewDesc& desc) {
                        desc.groundAlbedo.sampler == VK_NULL_HANDLE ? "no" : "a",
                        desc.groundAlbedo.height);
   }
-  return Status::Ok;
+  return checkSceneDepth(device, desc);
 }
 
 }  // namespace sky
 
 inline namespace v1 {
 
-Status View::create(bake::Resources& resources, const ViewDesc& desc, View** out) {
+Status View::create(bake::Resources& resources, const ViewDesc& desc, const sky::ShaftSet& shafts,
+                    View** out) {
   *out = nullptr;
   engine::Device& device = resources.device();
-  auto* view = new (std::nothrow) View(resources, desc);
+  auto* view = new (std::nothrow) View(resources, desc, shafts);
   if (view == nullptr) {
     return device.fail(Status::OutOfHostMemory, VK_SUCCESS, "A view found no host memory.");
   }
@@ -86,6 +109,7 @@ Status View::create(bake::Resources& resources, const ViewDesc& desc, View** out
   if (status == Status::Ok) status = view->makePipelines(false, view->pipelines_);
   if (status == Status::Ok && view->slice_ != nullptr)
     status = view->makePipelines(true, view->slicePipelines_);
+  if (status == Status::Ok && view->hasAir()) status = view->makeAirPipelines();
   if (status != Status::Ok) {
     destroy(view, FrameInfo{});  // Nothing was recorded with it: frame 0 has always completed.
     return status;
@@ -101,12 +125,19 @@ void View::destroy(View* view, const FrameInfo& frame) {
   for (const auto* pipelines : {&view->pipelines_, &view->slicePipelines_})
     for (VkPipeline pipeline : *pipelines)
       deletions.defer(frame.submitting, VK_OBJECT_TYPE_PIPELINE, engine::handleNumber(pipeline));
+  for (VkPipeline pipeline : {view->airPipeline_, view->airVolumePipeline_})
+    deletions.defer(frame.submitting, VK_OBJECT_TYPE_PIPELINE, engine::handleNumber(pipeline));
   deletions.defer(frame.submitting, VK_OBJECT_TYPE_PIPELINE_LAYOUT,
                   engine::handleNumber(view->layout_));
   deletions.defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
                   engine::handleNumber(view->pool_));
   deletions.defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT,
                   engine::handleNumber(view->setLayout_));
+  deletions.defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
+                  engine::handleNumber(view->airPool_));
+  deletions.defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT,
+                  engine::handleNumber(view->airLayout_));
+  sky::AirVolume::destroy(view->volume_, frame);
   sky::SkySlice::destroy(view->slice_, frame);
   delete view;
   deletions.collect(frame.completed);
@@ -128,10 +159,10 @@ Status View::makeSlice() {
   return sky::SkySlice::create(resources_, tables, &slice_);
 }
 
-// Set 1 of the fragment shader: the albedo map at binding 0, the slice at 1 and 2; what there is of
-// it.
+// Set 1 of the fragment shaders: the albedo map at binding 0, the slice at 1 and 2, the scene's
+// depth at 3; what there is of it. Set 2 is the air volume's, set 3 the shafts'.
 Status View::makeLayout() {
-  VkDescriptorSetLayoutBinding bindings[3];
+  VkDescriptorSetLayoutBinding bindings[4];
   uint32_t count = 0;
   const auto add = [&](uint32_t binding) {
     bindings[count++] = {binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1,
@@ -142,13 +173,20 @@ Status View::makeLayout() {
     add(1);
     add(2);
   }
+  if (hasAir()) add(3);
   if (count > 0) {
     const Status status = makeSet(bindings, count);
     if (status != Status::Ok) return status;
   }
-  const VkDescriptorSetLayout sets[2] = {resources_.tableLayout(), setLayout_};
+  if (hasAir()) {
+    const Status status = makeAir();
+    if (status != Status::Ok) return status;
+  }
+  VkDescriptorSetLayout sets[4] = {resources_.tableLayout(), setLayout_, airLayout_,
+                                   shafts_.layout};
+  const uint32_t setCount = hasAir() ? shafts_.layout != VK_NULL_HANDLE ? 4 : 3 : count > 0 ? 2 : 1;
   const VkPushConstantRange range = {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(sky::SkyConstants)};
-  return engine::createPipelineLayout(device_, sets, count > 0 ? 2 : 1, &range, 1, "Alpenglow sky",
+  return engine::createPipelineLayout(device_, sets, setCount, &range, 1, "Alpenglow sky",
                                       &layout_);
 }
 
@@ -169,6 +207,9 @@ Status View::makeSet(const VkDescriptorSetLayoutBinding* bindings, uint32_t coun
     writer.sampledImage(1, slice_->image().view, resources_.sampler())
         .sampledImage(2, slice_->mieImage().view, resources_.sampler());
   }
+  if (hasAir())
+    writer.sampledImage(3, desc_.sceneDepth.view, resources_.nearestSampler(),
+                        desc_.sceneDepth.layout);
   return writer.flush(device_);
 }
 
@@ -177,17 +218,21 @@ namespace {
 #define ALPENGLOW_SHADER(name) \
   engine::Shader { shaders::name, sizeof shaders::name, #name }
 
-engine::Shader fragmentShader(Solver solver, bool map, bool slice) {
-  if (solver == Solver::Standard) {
-    if (map && slice) return ALPENGLOW_SHADER(kSkyFragmentMapSliceStandard);
-    if (map) return ALPENGLOW_SHADER(kSkyFragmentMapStandard);
-    if (slice) return ALPENGLOW_SHADER(kSkyFragmentSliceStandard);
-    return ALPENGLOW_SHADER(kSkyFragmentStandard);
-  }
-  if (map && slice) return ALPENGLOW_SHADER(kSkyFragmentMapSlice);
-  if (map) return ALPENGLOW_SHADER(kSkyFragmentMap);
-  if (slice) return ALPENGLOW_SHADER(kSkyFragmentSlice);
-  return ALPENGLOW_SHADER(kSkyFragment);
+/// By map, slice and shafts.
+engine::Shader momentsShader(bool map, bool slice, bool shafts) {
+  const engine::Shader shaders[2][2][2] = {
+      {{ALPENGLOW_SHADER(kSkyFragment), ALPENGLOW_SHADER(kSkyFragmentShafts)},
+       {ALPENGLOW_SHADER(kSkyFragmentSlice), ALPENGLOW_SHADER(kSkyFragmentSliceShafts)}},
+      {{ALPENGLOW_SHADER(kSkyFragmentMap), ALPENGLOW_SHADER(kSkyFragmentMapShafts)},
+       {ALPENGLOW_SHADER(kSkyFragmentMapSlice), ALPENGLOW_SHADER(kSkyFragmentMapSliceShafts)}}};
+  return shaders[map][slice][shafts];
+}
+
+engine::Shader standardShader(bool map, bool slice) {
+  const engine::Shader shaders[2][2] = {
+      {ALPENGLOW_SHADER(kSkyFragmentStandard), ALPENGLOW_SHADER(kSkyFragmentSliceStandard)},
+      {ALPENGLOW_SHADER(kSkyFragmentMapStandard), ALPENGLOW_SHADER(kSkyFragmentMapSliceStandard)}};
+  return shaders[map][slice];
 }
 
 #undef ALPENGLOW_SHADER
@@ -199,7 +244,10 @@ Status View::makePipelines(bool slice, VkPipeline* pipelines) {
   const bool reversed = desc_.depth == DepthConvention::Reversed;
   engine::GraphicsPipelineDesc desc;
   desc.vertex = {s::kSkyVertex, sizeof s::kSkyVertex, "sky.vert"};
-  desc.fragment = fragmentShader(desc_.solver, desc_.groundAlbedo.view != VK_NULL_HANDLE, slice);
+  const bool map = desc_.groundAlbedo.view != VK_NULL_HANDLE;
+  desc.fragment = desc_.solver == Solver::Moments
+                      ? momentsShader(map, slice, shafts_.layout != VK_NULL_HANDLE)
+                      : standardShader(map, slice);
   desc.layout = layout_;
   desc.colors[0].format = desc_.colorFormat;
   desc.depthFormat = desc_.depthFormat;
@@ -215,9 +263,12 @@ Status View::makePipelines(bool slice, VkPipeline* pipelines) {
         engine::specBool(2, seen.ground),
         engine::specBool(3, seen.disc),
         engine::specFloat(4, reversed ? 0.0f : 1.0f),
-        engine::specBool(5, seen.air)};
+        engine::specBool(5, seen.air),
+        engine::specBool(6, desc_.projection == Projection::Orthographic),
+        engine::specUint(8, shafts_.method),
+        engine::specUint(9, shafts_.samples)};
     desc.constants = constants;
-    desc.constantCount = 6;
+    desc.constantCount = 9;
     const Status status =
         engine::createGraphicsPipeline(device_, desc, &pipelines[sky::variant(seen)]);
     if (status != Status::Ok) return status;
@@ -226,7 +277,7 @@ Status View::makePipelines(bool slice, VkPipeline* pipelines) {
 }
 
 Status View::checkRecord(const Tables& tables, const SkyDraw& draw, const char* call) const {
-  const Status status = sky::checkDraw(device_, desc_, draw);
+  const Status status = sky::checkDraw(device_, desc_.projection, draw);
   if (status != Status::Ok) return status;
   if (&tables.resources() != &resources_) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
@@ -263,15 +314,17 @@ Status View::recordSlice(VkCommandBuffer commands, const Tables& tables, const S
                         "made for another shape.",
                         sizes.scatteringMu, sizes.scatteringNu);
   }
-  return sky::SkySlice::possible(tables, draw) ? slice_->record(commands, tables, draw)
-                                               : Status::Ok;
+  if (!sky::SkySlice::possible(tables, draw)) return Status::Ok;
+  const Status recorded = slice_->record(commands, tables, draw);
+  return recorded == Status::Ok && volume_ != nullptr ? volume_->record(commands, tables, draw)
+                                                      : recorded;
 }
 
 Status View::recordSky(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw) {
-  Status status = checkRecord(tables, draw, "recordSky");
-  if (status != Status::Ok) return status;
+  Status status = Status::Ok;
   const bool fromSlice = slice_ != nullptr && slice_->serves(tables, draw);
   if (fromSlice) status = slice_->assertReadable();
+  if (fromSlice && status == Status::Ok && volume_ != nullptr) status = volume_->assertReadable();
   if (status != Status::Ok) return status;
 
   const engine::Dispatch& vk = device_.vk();
@@ -283,15 +336,24 @@ Status View::recordSky(VkCommandBuffer commands, const Tables& tables, const Sky
                                static_cast<float>(area.extent.height),
                                0.0f,
                                1.0f};
-  const VkDescriptorSet sets[2] = {tables.descriptorSet(), set_};
   vk.CmdSetViewport(commands, 0, 1, &viewport);
-  vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0,
-                           set_ != VK_NULL_HANDLE ? 2 : 1, sets, 0, nullptr);
+  bindSets(commands, tables);
   vk.CmdPushConstants(commands, layout_, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,
                       &constants);
   drawParts(commands, sky::cut(tables.parameters(), desc_, draw), area.offset,
             fromSlice ? slicePipelines_ : pipelines_);
   return Status::Ok;
+}
+
+void View::bindSets(VkCommandBuffer commands, const Tables& tables) {
+  const VkDescriptorSet sets[4] = {tables.descriptorSet(), set_, airSet_, shafts_.set};
+  const auto bind = [&](uint32_t first, uint32_t count) {
+    device_.vk().CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, first,
+                                       count, sets + first, 0, nullptr);
+  };
+  bind(0, set_ != VK_NULL_HANDLE ? 2 : 1);
+  if (airSet_ != VK_NULL_HANDLE) bind(2, 1);
+  if (shafts_.layout != VK_NULL_HANDLE) bind(3, 1);
 }
 
 void View::drawParts(VkCommandBuffer commands, const sky::Parts& parts, const VkOffset2D& corner,

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <alpenglow/context.h>
+#include <alpenglow/mesh.h>
 #include <alpenglow/parameters.h>
 #include <alpenglow/probe.h>
 #include <alpenglow/query.h>
+#include <alpenglow/shafts.h>
 #include <alpenglow/tables.h>
 #include <alpenglow/types.h>
 #include <alpenglow/version.h>

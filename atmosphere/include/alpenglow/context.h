@@ -11,9 +11,9 @@ struct Context;  ///< Opaque.
 
 /// What the host wants to do. Bits; ask for what you use, each has its own requirements.
 enum Capability : uint32_t {
-  kCapabilityBake = 1u << 0,  ///< Compute shaders that fill the tables, and probe queries.
-  kCapabilitySky = 1u << 1,   ///< Graphics pipelines that draw sky and ground.
-  kCapabilityAir = 1u << 2,   ///< Aerial perspective over a host's scene: dualSrcBlend.
+  kCapabilityBake = 1u << 0,    ///< Compute shaders that fill the tables, and probe queries.
+  kCapabilitySky = 1u << 1,     ///< Graphics pipelines that draw sky and ground.
+  kCapabilityAir = 1u << 2,     ///< Aerial perspective over a host's scene: dualSrcBlend.
   kCapabilityShafts = 1u << 3,  ///< Light shafts: geometryShader, depthClamp, shaderClipDistance,
                                 ///< independentBlend.
 };
@@ -23,7 +23,7 @@ using CapabilityFlags = uint32_t;
 struct Requirements {
   uint32_t apiVersion = 0;        ///< Least VkApplicationInfo::apiVersion and device version.
   bool synchronization2 = false;  ///< VkPhysicalDeviceVulkan13Features::synchronization2.
-  bool dynamicRendering = false;  ///< Likewise; only for views that name no VkRenderPass.
+  bool dynamicRendering = false;  ///< Likewise; for shafts, and views that name no VkRenderPass.
   VkPhysicalDeviceFeatures features = {};  ///< Core features that must be enabled.
 };
 

@@ -31,8 +31,8 @@ struct ShaftsDesc {
 struct CasterPass;
 
 /// Places what the next draws of this pass draw: local position p lies at origin_m + rotation p,
-/// in the planet's frame. `rotation`: three rows, of determinant above 0 (a scale is welcome); null:
-/// none.
+/// in the planet's frame. `rotation`: three rows, of determinant above 0 (a scale is welcome);
+/// null: none.
 void placeCaster(const CasterPass* pass, const double origin_m[3], const float rotation[9]);
 
 /// For each of its casters calls placeCaster, then binds its vertices (binding 0, with stride and
@@ -59,13 +59,14 @@ Status recordSunMap(Shafts* shafts, VkCommandBuffer commands, const FrameInfo& f
 
 /// Records, outside any rendering scope, the shadows of this draw's camera, after the host's scene
 /// has been drawn into the depth image: the view's recordSky and recordAir of the same draw then
-/// read them. With Exact after recordSunMap for the same sun, and recordSkySlice of the view for the
-/// same draw (orthographic cameras need none). Clobbers as recordSunMap.
+/// read them. With Exact after recordSunMap for the same sun, and recordSkySlice of the view for
+/// the same draw (orthographic cameras need none). Clobbers as recordSunMap.
 Status recordShafts(Shafts* shafts, View* view, VkCommandBuffer commands, const FrameInfo& frame,
                     const Tables* tables, const SkyDraw& draw, const Casters& casters);
 
-/// Binding table of shaftSet, for the host's own fragment shaders that include alpenglow/shafts.glsl:
-/// alpenglowSunlit() tells whether the surface in a pixel sees the sun. Filled by recordShafts.
+/// Binding table of shaftSet, for the host's own fragment shaders that include
+/// alpenglow/shafts.glsl: alpenglowSunlit() tells whether the surface in a pixel sees the sun.
+/// Filled by recordShafts.
 VkDescriptorSetLayout shaftSetLayout(const Shafts* shafts);
 VkDescriptorSet shaftSet(const Shafts* shafts);
 

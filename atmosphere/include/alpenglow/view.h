@@ -126,17 +126,18 @@ Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame, c
 
 /// Aerial perspective: draws, inside the host's rendering scope, over every pixel of the viewport
 /// that the host's scene covers: colour times transmittance plus light scattered on the way, less
-/// what shadows keep from it (ViewDesc::shafts). The host has drawn its opaque scene into the colour
-/// attachment in linear radiance times SkyDraw::radianceScale; the scope's depth attachment, if any,
-/// is read-only (ViewDesc::sceneDepth is read meanwhile). With a sky slice recorded for this draw it
-/// reads that frame's air volume, else it integrates each pixel's ray through the tables. Sky pixels
-/// are left to recordSky, in either order. Needs ViewDesc::sceneDepth, kCapabilityAir and
-/// SkyDraw::depth. Not for fisheyes. Clobbers what recordSky does, and sets 0 to 2.
+/// what shadows keep from it (ViewDesc::shafts). The host has drawn its opaque scene into the
+/// colour attachment in linear radiance times SkyDraw::radianceScale; the scope's depth attachment,
+/// if any, is read-only (ViewDesc::sceneDepth is read meanwhile). With a sky slice recorded for
+/// this draw it reads that frame's air volume, else it integrates each pixel's ray through the
+/// tables. Sky pixels are left to recordSky, in either order. Needs ViewDesc::sceneDepth,
+/// kCapabilityAir and SkyDraw::depth. Not for fisheyes. Clobbers what recordSky does, and sets 0
+/// to 2.
 Status recordAir(View* view, VkCommandBuffer commands, const FrameInfo& frame, const Tables* tables,
                  const SkyDraw& draw);
 
-/// The matrix (column-major) that a host may draw its scene with, and that its depth image must agree
-/// with: from metres off the camera, in the planet's axes, to Vulkan's clip space. With z the
+/// The matrix (column-major) that a host may draw its scene with, and that its depth image must
+/// agree with: from metres off the camera, in the planet's axes, to Vulkan's clip space. With z the
 /// distance along Camera::forward, n = near_m and f = far_m, depth is (Standard) f (z - n) /
 /// (z (f - n)), or 1 - n / z without f; (Reversed) n (f - z) / (z (f - n)), or n / z; orthographic
 /// (z - n) / (f - n), or (f - z) / (f - n). Not for fisheyes.

@@ -24,8 +24,10 @@ layout(set = ALPENGLOW_SHAFT_SET, binding = 0, std140) uniform AlpenglowShaftFra
   vec4 mapU;           // dot(xyz, position) + w: texels of the map from the sun,
   vec4 mapV;
   vec4 mapDepth;       // and depth in it
-  vec4 wall;           // longest wall, metres; texels on a side of the map; texels of a block; unused
+  vec4 wall;           // longest wall, metres; texels on a side of the map and of a block; the camera's radius
   vec4 pixels;         // ndc of a pixel: 2 / size, xy; method; 1: orthographic
+  vec4 airSlice;       // AirView of the camera: SliceView, extinction_
+  vec4 airSun;         // horizontal unit vector towards the sun; AirView::height
 } alpenglowShaft;
 
 // Depth in it, seen from the sun; as blocks, the greatest in and around each; the frame's results.

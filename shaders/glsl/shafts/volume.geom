@@ -11,7 +11,7 @@ layout(triangle_strip, max_vertices = 23) out;
 #include "alpenglow/shafts.glsl"
 #include "shafts/facing.glsl"
 
-layout(constant_id = 1) const bool kReversed = false;
+layout(constant_id = 7) const bool kReversed = false;
 
 layout(location = 0) in vec3 corner[];
 layout(location = 0) out vec3 position;

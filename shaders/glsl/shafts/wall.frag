@@ -4,10 +4,12 @@
 // the ray enters shadow here, and unlit else (docs/shafts.md). Where the lit side is not lit, the wall is
 // inside another shadow, and nothing.
 
+#define ALPENGLOW_AIR_SET 2
 #include "alpenglow/atmosphere.glsl"
 #include "alpenglow/shafts.glsl"
 #include "shafts/pixel_ray.glsl"
-#include "shafts/single_light.glsl"
+#include "sky/ray_light.glsl"
+#include "shafts/air_ray.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in flat vec2 outward;
@@ -22,5 +24,5 @@ void main() {
   float t = kOrthographic ? dot(position, view) : length(position);
   bool reached = t > 0.0 && (!ray.hitsGround || t < ray.start + ray.extent);
   float sign_ = divides && reached ? (gl_FrontFacing ? 1.0 : -1.0) : 0.0;
-  sums = vec4(sign_ * singleLightTo(ray, view, alpenglowInside(ray, t)), sign_);
+  sums = vec4(sign_ * alpenglowAirSingle(airRayOf(ray, view), t), sign_);
 }

@@ -22,6 +22,15 @@ Spectrum readSliceMie(vec2 uv) { return textureLod(sliceMieTable, uv, 0.0).rgb; 
 
 #define ALPENGLOW_MIE_PACKED kMiePacked
 #include "alpenglow/atmosphere.glsl"
+#include "sky/observer.glsl"
+#ifdef ALPENGLOW_WITH_SHAFTS
+#define ALPENGLOW_AIR_SET 2
+#define ALPENGLOW_SHAFT_SET 3
+#include "alpenglow/shafts.glsl"
+#include "sky/ray_light.glsl"
+#include "shafts/air_ray.glsl"
+#include "shafts/shaft_loss.glsl"
+#endif
 
 #ifdef ALPENGLOW_ALBEDO_MAP
 layout(set = 1, binding = 0) uniform sampler2D albedoMap;
@@ -42,7 +51,7 @@ layout(push_constant) uniform SkyConstants {
 layout(location = 0) in vec2 ndc;
 layout(location = 0) out vec4 radiance;
 
-vec3 viewDirection(out bool visible) {
+vec3 viewDirection(out bool visible, inout vec3 up, inout float altitude) {
   if (kFisheye) {
     vec2 p = ndc * circleSlice.xy;
     float radius = length(p);
@@ -53,34 +62,42 @@ vec3 viewDirection(out bool visible) {
                      downMapTexel.xyz * across.y);
   }
   visible = true;
+  if (kOrthographic) {
+    moveObserver(ndc.x * rightHalfAngle.xyz + ndc.y * downMapTexel.xyz, up, altitude);
+    return forwardPixel.xyz;
+  }
   return normalize(forwardPixel.xyz + ndc.x * rightHalfAngle.xyz + ndc.y * downMapTexel.xyz);
 }
 
-// Albedo where the ray meets the ground; of a map, at the level whose texels are as wide as the
-// pixel's footprint there.
-Spectrum groundAlbedo(Ray ray, vec3 view, float muGround) {
+// Albedo where the ray meets the ground, `up` and `altitude` of its observer; of a map, at the level whose
+// texels are as wide as the pixel's footprint there.
+Spectrum groundAlbedo(Ray ray, vec3 up, float altitude, vec3 view, float muGround) {
 #ifdef ALPENGLOW_ALBEDO_MAP
-  vec3 point = upAltitude.xyz * (alpenglowMedium.bottomRadius + upAltitude.w) +
+  vec3 point = up * (alpenglowMedium.bottomRadius + altitude) +
                view * (ray.start + ray.extent);
   vec3 n = normalize(point);
   vec2 uv = vec2(atan(n.y, n.x) * (0.5 / ALPENGLOW_PI) + 0.5,
                  acos(clamp(n.z, -1.0, 1.0)) / ALPENGLOW_PI);
-  float footprint = (ray.start + ray.extent) * forwardPixel.w * inversesqrt(max(muGround, 0.05));
+  float width = kOrthographic ? forwardPixel.w : (ray.start + ray.extent) * forwardPixel.w;
+  float footprint = width * inversesqrt(max(muGround, 0.05));
   return textureLod(albedoMap, uv, max(log2(footprint / downMapTexel.w), 0.0)).rgb;
 #else
   return alpenglowMedium.groundAlbedo;
 #endif
 }
 
-// The ground's own light, dimmed on its way to the camera: T R[L], equations 10 and 14.
-Spectrum groundTerm(Ray ray, vec3 view) {
+// The ground's own light, dimmed on its way to the camera: T R[L], equations 10 and 14. `sunlit` is 0 in the
+// shadow of a caster.
+Spectrum groundTerm(Ray ray, vec3 up, float altitude, vec3 view, float sunlit) {
   float d = ray.hitsGround ? ray.extent : 0.0;
   Spectrum depth =
       opticalDepthToGround(alpenglowMedium, ray.h, ray.mu, d, ray.hitsGround);
   float muGround = -muAt(alpenglowMedium, ray.h, ray.mu, d, 0.0);
   float muSGround = muSAt(alpenglowMedium, ray.h, ray.muS, ray.nu, d, 0.0);
-  Spectrum albedo = groundAlbedo(ray, view, muGround);
-  Spectrum light = alpenglowGroundRadiance(albedo, muSGround) * exp(-depth);
+  Spectrum albedo = groundAlbedo(ray, up, altitude, view, muGround);
+  Spectrum sun = alpenglowSunlight(0.0, muSGround) * (max(muSGround, 0.0) * sunlit);
+  Spectrum light =
+      reflectedRadiance(albedo, sun, alpenglowSkyIrradiance(0.0, muSGround)) * exp(-depth);
   return ray.hitsGround ? light : SPECTRUM(0.0);
 }
 
@@ -110,8 +127,10 @@ Spectrum sliceTerm(Ray ray, vec3 view) {
 
 void main() {
   bool visible;
-  vec3 view = viewDirection(visible);
-  Ray ray = alpenglowRay(upAltitude.xyz, upAltitude.w, view, sunDiscChord.xyz);
+  vec3 up = upAltitude.xyz;
+  float altitude = upAltitude.w;
+  vec3 view = viewDirection(visible, up, altitude);
+  Ray ray = alpenglowRay(up, altitude, view, sunDiscChord.xyz);
   if (!kGround) ray.hitsGround = false;
   if (!kAir) ray.inAtmosphere = false;
   Spectrum light = SPECTRUM(0.0);
@@ -120,7 +139,18 @@ void main() {
 #else
   if (kAir) light = alpenglowSkyRadiance(ray);
 #endif
-  if (kGround) light += groundTerm(ray, view);
+  float sunlit = 1.0;
+#ifdef ALPENGLOW_WITH_SHAFTS
+  if (kAir) {
+    float end = ray.start + ray.extent;
+    AirRay air = airRayOf(ray, view);
+    AirLight whole = alpenglowAirLight(air, end);
+    light -= shaftLoss(gl_FragCoord.xy, air, view, ray.start, end, whole, ray.hitsGround);
+    light = max(light, SPECTRUM(0.0));
+    sunlit = alpenglowSunlit(gl_FragCoord, alpenglowRayOrigin(gl_FragCoord.xy) + end * view);
+  }
+#endif
+  if (kGround) light += groundTerm(ray, up, altitude, view, sunlit);
   if (kSunDisc) light += discTerm(ray, view);
   light = visible ? light * irradianceDisc.rgb : SPECTRUM(0.0);
   radiance = vec4(light, 1.0);

@@ -1,0 +1,58 @@
+// What shadows keep from a ray: docs/shafts.md. Needs alpenglow/shafts.glsl, sky/ray_light.glsl and
+// pixel_ray.glsl.
+
+layout(constant_id = 8) const int kShaftMethod = 0;
+layout(constant_id = 9) const int kShaftSamples = 32;
+
+// Of single scattering alone: all that walls have found.
+Spectrum exactLoss(vec2 fragCoord, Spectrum whole) {
+  vec4 sums = texelFetch(alpenglowShaftSums, ivec2(fragCoord), 0);
+  float shadows = (alpenglowInShadow(alpenglowRayOrigin(fragCoord)) ? 1.0 : 0.0) + sums.a;
+  Spectrum lit = sums.rgb + (shadows > 0.5 ? SPECTRUM(0.0) : whole);
+  return whole - clamp(lit, SPECTRUM(0.0), whole);
+}
+
+// Of single scattering, from samples of the map where the ray crosses it.
+Spectrum marchedLoss(vec2 fragCoord, AirRay air, vec3 view, float end) {
+  vec3 origin = alpenglowRayOrigin(fragCoord);
+  vec3 from = alpenglowOnSunMap(origin);
+  vec3 step_ = alpenglowOnSunMap(origin + view) - from;
+  step_ += vec3(equal(step_, vec3(0.0))) * 1e-20;
+  vec2 size = vec2(alpenglowShaft.wall.y);
+  vec2 a = -from.xy / step_.xy, b = (size - from.xy) / step_.xy;
+  vec2 first = min(a, b), last = max(a, b);
+  float begin = clamp(max(first.x, first.y), 0.0, end);
+  float stop = clamp(min(last.x, last.y), begin, end);
+  float width = (stop - begin) / float(kShaftSamples);
+  Spectrum loss = SPECTRUM(0.0), before = alpenglowAirSingle(air, begin);
+  for (int i = 0; i < kShaftSamples; ++i) {
+    float t = begin + width * (float(i) + 0.5);
+    Spectrum after = alpenglowAirSingle(air, begin + width * float(i + 1));
+    loss += alpenglowInShadow(origin + t * view) ? after - before : SPECTRUM(0.0);
+    before = after;
+  }
+  return max(loss, SPECTRUM(0.0));
+}
+
+// Equations 17 and 18 of the paper, of all orders: a ray that ends on a surface loses its last metres, one to
+// the sky its first.
+Spectrum paperLoss(vec2 fragCoord, AirRay air, Spectrum whole, float end, float start, bool ground) {
+  vec2 sums = texelFetch(alpenglowShaftSums, ivec2(fragCoord), 0).xy;
+  vec2 bounds = texelFetch(alpenglowShaftBounds, ivec2(fragCoord), 0).xy;  // (-zmin, zmax)
+  float zGround = max(end - start, 0.0);
+  float zMin = min(-bounds.x, zGround);
+  float onGround = clamp(sums.y - sums.x * zGround, 0.0, zGround - zMin);
+  float inSky = clamp(sums.y, 0.0, bounds.y);
+  AirLight light = alpenglowAirLight(air, start + (ground ? zGround - onGround : inSky));
+  Spectrum part = light.single + light.multiple;
+  return ground ? max(whole - part, SPECTRUM(0.0)) : min(part, whole);
+}
+
+// Of the first `end` metres of a ray, which send single and multiple scattering; `ground`: they end on a
+// surface.
+Spectrum shaftLoss(vec2 fragCoord, AirRay air, vec3 view, float start, float end, AirLight light,
+                   bool ground) {
+  if (kShaftMethod == kShaftExact) return exactLoss(fragCoord, light.single);
+  if (kShaftMethod == kShaftMarch) return marchedLoss(fragCoord, air, view, end);
+  return paperLoss(fragCoord, air, light.single + light.multiple, end, start, ground);
+}
