@@ -2,10 +2,12 @@
 #pragma once
 
 #include <alpenglow/context.h>
+#include <alpenglow/mesh.h>
 #include <alpenglow/parameters.h>
 #include <alpenglow/probe.h>
 #include <alpenglow/query.h>
 #include <alpenglow/tables.h>
+#include <alpenglow/terrain.h>
 #include <alpenglow/types.h>
 #include <alpenglow/version.h>
 #include <alpenglow/view.h>
