@@ -11,15 +11,24 @@ struct DistanceSample {
   double density = 1.0;  ///< Per metre in the air, a probability on a surface.
 };
 
+/// What a ray ends on.
+struct EndSurface {
+  const physics_f64::Spectrum* albedo = nullptr;  ///< Null for none.
+  /// Of a mesh, altitude and the cosine between its normal and the sun; the ground's are the ray's.
+  bool isMesh = false;
+  double h = 0.0;
+  double cosSun = 0.0;
+};
+
 /// The density is linear between a ray's nodes. A part of it doesn't trust the guide, and a small
 /// one not even the densities, so that every point of the ray has its chance.
 class DistanceSampling {
  public:
   /// `counts`: what light of each channel, before this ray, counts for. `direct`: sunlight that
-  /// scatters at the event counts too. `surface`: the albedo of what the ray ends on, or null.
+  /// scatters at the event counts too. `surface`: what the ray ends on.
   DistanceSampling(const Medium& medium, const LightGuide& guide, const Stretch& stretch,
                    double muS, double nu, const physics_f64::Spectrum& counts, bool direct,
-                   const physics_f64::Spectrum* surface);
+                   const EndSurface& surface);
 
   /// False where nothing can come from along the ray.
   bool possible() const { return possible_; }

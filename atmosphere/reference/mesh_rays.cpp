@@ -21,6 +21,12 @@ struct Box {
   }
 };
 
+/// A box by more than rounding larger: a ray in a face, or in a box without height, is inside.
+Box padded(const Box& box) {
+  const auto some = [](const Vector& p) { return glm::max(1e-15 * glm::abs(p), Vector(1e-100)); };
+  return {box.low - some(box.low), box.high + some(box.high)};
+}
+
 /// Half of a box's surface.
 double areaOf(const Box& box) {
   const Vector e = box.high - box.low;
@@ -83,7 +89,8 @@ struct MeshRays::Builder {
       box.add(items[i].box);
       centers.add(items[i].center);
     }
-    nodes[node] = {box.low, box.high, first, count};
+    const Box roomy = padded(box);
+    nodes[node] = {roomy.low, roomy.high, first, count};
     if (count <= kLeaf) return;
     uint32_t left = depth < kUnbalanced ? split(first, count, centers) : 0;
     if (left == 0) left = halve(first, count, centers);
@@ -202,7 +209,7 @@ struct MeshRays::Ray {
     shearX = direction[x] / direction[z];
     shearY = direction[y] / direction[z];
     scale = 1.0 / direction[z];
-    // Not infinity, which times a distance of 0 has no value: a ray in a box's face is inside.
+    // Not infinity, which times a distance of 0 has no value.
     for (int i = 0; i < 3; ++i) {
       inverse[i] = size[i] > 1e-300 ? 1.0 / direction[i] : std::copysign(1e300, direction[i]);
     }

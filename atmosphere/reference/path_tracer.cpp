@@ -130,10 +130,17 @@ bool PathTracer::step(Path& path, double length, bool direct, bool sunAtEnd,
   std::optional<MeshHit> mesh;
   if (whole && scene_ != nullptr) {
     mesh = scene_->meshes.closest(path.position, path.direction, path.gap, length);
-    if (mesh) length = mesh->t;
   }
-  const Spectrum* surface =
-      mesh ? &scene_->albedo[mesh->mesh] : (ground ? &medium_.groundAlbedo : nullptr);
+  EndSurface surface;
+  if (mesh) {
+    length = mesh->t;
+    if (glm::dot(mesh->normal, path.direction) > 0.0) mesh->normal = -mesh->normal;
+    surface = {&scene_->albedo[mesh->mesh], true,
+               std::min(physics_f64::altitudeAt(medium_, path.h, mu, length), medium_.thickness),
+               glm::dot(mesh->normal, path.sun)};
+  } else if (ground) {
+    surface.albedo = &medium_.groundAlbedo;
+  }
   const Spectrum counts = path.throughput * path.relative;
   const DistanceSampling distances(medium_, guide_, {path.h, mu, length}, muS, nu, counts, direct,
                                    surface);
@@ -144,7 +151,7 @@ bool PathTracer::step(Path& path, double length, bool direct, bool sunAtEnd,
   Hit hit;
   hit.nu = nu;
   const bool hitsSurface = surfaceChance > 0.0 && sampler.random() < surfaceChance;
-  hit.albedo = hitsSurface ? surface : nullptr;
+  hit.albedo = hitsSurface ? surface.albedo : nullptr;
   DistanceSample sample{length, surfaceChance};
   if (!hitsSurface) sample = distances.sample(sampler.leading(), 1.0 - surfaceChance);
   hit.position = path.position + sample.t * path.direction;
@@ -154,7 +161,7 @@ bool PathTracer::step(Path& path, double length, bool direct, bool sunAtEnd,
   hit.vertical = hit.position / glm::length(hit.position);
   hit.muS = std::clamp(glm::dot(hit.vertical, path.sun), -1.0, 1.0);
   if (hitsSurface && mesh) {
-    hit.normal = glm::dot(mesh->normal, path.direction) > 0.0 ? -mesh->normal : mesh->normal;
+    hit.normal = mesh->normal;
   } else if (hitsSurface) {
     hit.normal = hit.vertical;
     hit.position = hit.vertical * medium_.bottomRadius;
