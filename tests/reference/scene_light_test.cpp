@@ -255,20 +255,20 @@ TEST(ScenePaths, WhiteMeshesKeepTheEnergy) {
   }
   std::vector<physics_f64::Spectrum> air, surface;
   for (uint64_t batch = 0; batch < 48; ++batch) {
-    PathSampler sampler(5, batch);
     Random suns(6, batch);
     physics_f64::Spectrum airSum(0.0), surfaceSum(0.0);
-    constexpr int kPaths = 1024;
-    // Not evenly one after another: in step with the paths' own numbers they would miss pairs.
-    for (int i = 0; i < kPaths; ++i) {
+    constexpr uint64_t kPaths = 1024;
+    for (uint64_t i = 0; i < kPaths; ++i) {
+      // Each path for itself: a net over a few dimensions spreads its means more than that here.
+      PathSampler sampler(5, batch * kPaths + i);
       const Vector sun = around(Vector(0, 0, 1), 2.0 * suns.uniform() - 1.0, suns.uniform());
       const auto light =
           tracer.airSample(some.position, some.view, sun, end.length, true, relative, sampler);
       airSum += light.single + light.multiple;
       surfaceSum += tracer.surfaceSample(place, end.normal, sun, end.albedo, sampler);
     }
-    air.push_back(airSum / double(kPaths));
-    surface.push_back(surfaceSum / double(kPaths));
+    air.push_back(airSum / static_cast<double>(kPaths));
+    surface.push_back(surfaceSum / static_cast<double>(kPaths));
   }
   expectWithin(estimateOf(air), expected, 0.03, "air");
   expectWithin(estimateOf(surface), wall, 0.03, "wall");
