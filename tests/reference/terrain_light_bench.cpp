@@ -221,7 +221,7 @@ Spectrum integrateAlong(const PathTracer& bare, Sample& s) {
 void evaluate(const Worlds& worlds, uint32_t paths, uint64_t stream, Sample& s) {
   const Spectrum transmittance = integrateAlong(worlds.bare, s);
   const Spectrum relative = 1.0 / (3.0 * s.singleAll);
-  const auto& [position, view, sun] = s.ray;
+  const Vector &position = s.ray.position, &view = s.ray.view, &sun = s.ray.sun;
   const double length = s.end.length;
   Random random(23, stream);
   Spectrum squares(0.0);
