@@ -17,8 +17,8 @@ double cameraAltitude(const Parameters& parameters, const Camera& camera);
 /// How a camera's rays lie in a slice.
 physics_f64::SliceView sliceView(const Parameters& parameters, double altitude);
 
-/// Horizontal unit vector towards the sun at the camera; 0 for a sun in the zenith, towards which no
-/// azimuth is the sun's, and any will do.
+/// Horizontal unit vector towards the sun at the camera; 0 for a sun in the zenith, towards which
+/// no azimuth is the sun's, and any will do.
 void sunAzimuth(const SkyDraw& draw, double out[3]);
 
 /// Owned by a view; externally synchronised.

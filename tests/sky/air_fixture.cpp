@@ -183,15 +183,17 @@ double AirTest::leastSeconds(const std::function<bool(VkCommandBuffer)>& record)
 double AirTest::askSeconds(const SkyDraw& draw, AirAsk what, const std::vector<AirQuery>& queries) {
   makeObjects();
   std::copy(queries.begin(), queries.end(), static_cast<AirQuery*>(objects().queries.data()));
+  Tables* const baked = tables();
   return leastSeconds([&](VkCommandBuffer commands) {
-    return recordAsk(commands, draw, what, queries.size(), tables());
+    return recordAsk(commands, draw, what, queries.size(), baked);
   });
 }
 
 double AirTest::fillSeconds(const SkyDraw& draw) {
   sky::AirVolume* const filled = volume();
+  Tables* const baked = tables();
   return leastSeconds([&](VkCommandBuffer commands) {
-    return filled->record(commands, *tables(), draw) == Status::Ok;
+    return filled->record(commands, *baked, draw) == Status::Ok;
   });
 }
 

@@ -4,7 +4,7 @@
 
 const int kAirColumns = 128;
 const int kAirRows = 96;
-const int kAirDistances = 40;
+const int kAirDistances = 56;
 
 // What the mappings need, the same for all rays of a camera: airView.
 struct AirView {
