@@ -36,6 +36,7 @@ namespace alpenglow::engine {
   X(CmdDispatch)                      \
   X(CmdDraw)                          \
   X(CmdDrawIndexed)                   \
+  X(CmdDrawIndirect)                  \
   X(CmdEndRendering)                  \
   X(CmdFillBuffer)                    \
   X(CmdPipelineBarrier2)              \

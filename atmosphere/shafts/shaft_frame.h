@@ -36,6 +36,11 @@ struct ShaftFrame {
 };
 static_assert(sizeof(ShaftFrame) == 320, "As std140 lays it out");
 
+/// Cells on a side of a block: alpenglow/shafts.glsl.
+inline constexpr uint32_t kShaftBlock = 16;
+/// Blocks on a side of the map's relief.
+constexpr uint32_t blocksAcross(uint32_t texels) { return (texels - 2) / kShaftBlock + 1; }
+
 /// Everything is computed in double and rounded once.
 ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,
                           const SunMapPlace& map, const SkyDraw& draw);

@@ -1,6 +1,7 @@
 #include "atmosphere/shafts/shaft_pass.h"
 
 #include <alpenglow/shaders/shaft_caster.h>
+#include <alpenglow/shaders/shaft_cull.h>
 #include <alpenglow/shaders/shaft_surface.h>
 #include <alpenglow/shaders/shaft_surface_fragment.h>
 #include <alpenglow/shaders/shaft_surface_fragment_volume.h>
@@ -25,11 +26,15 @@ constexpr ImageState kBlended = {
 
 /// AlpenglowShaftFrame; the map from the sun; sums and bounds. Fragments' alone where the device
 /// has no geometry shaders.
+constexpr VkShaderStageFlags kCompute = VK_SHADER_STAGE_COMPUTE_BIT;
 constexpr VkShaderStageFlags kMapStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 constexpr VkDescriptorSetLayoutBinding sampled(uint32_t binding, VkShaderStageFlags stages) {
   return {binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages, nullptr};
 }
-constexpr uint32_t kBindingCount = 4;
+constexpr uint32_t kBindingCount = 5;
+
+/// Bytes before the list of AlpenglowShaftBlocks.
+constexpr VkDeviceSize kBlocksHead = 20;
 
 /// Sums of light: floats where they can be blended.
 VkFormat sumFormat(const engine::Device& device) {
@@ -69,13 +74,16 @@ void Shafts::destroy(Shafts* shafts, const FrameInfo& frame) {
   };
   defer(VK_OBJECT_TYPE_PIPELINE, shafts->pipeline_);
   defer(VK_OBJECT_TYPE_PIPELINE, shafts->volumePipeline_);
+  defer(VK_OBJECT_TYPE_PIPELINE, shafts->cullPipeline_);
   defer(VK_OBJECT_TYPE_PIPELINE_LAYOUT, shafts->layout_);
+  defer(VK_OBJECT_TYPE_PIPELINE_LAYOUT, shafts->cullLayout_);
   defer(VK_OBJECT_TYPE_DESCRIPTOR_POOL, shafts->pool_);
   defer(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, shafts->setLayout_);
   defer(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, shafts->airLayout_);
   for (engine::Image& image : shafts->targets_)
     engine::deferImage(device, frame.submitting, &image);
   engine::deferBuffer(device, frame.submitting, &shafts->frame_);
+  engine::deferBuffer(device, frame.submitting, &shafts->blocks_);
   engine::deferBlock(device, frame.submitting, &shafts->memory_);
   shafts->map_.destroy(frame);
   delete shafts;
@@ -87,15 +95,26 @@ Status Shafts::make() {
   if (status == Status::Ok) status = makeTargets();
   if (status == Status::Ok) status = makeSet();
   if (status == Status::Ok && desc_.method != ShaftMethod::March) status = makePipelines();
+  if (status == Status::Ok && exact()) status = makeCulling();
   return status;
 }
 
 Status Shafts::makeTargets() {
   Status status =
       engine::createBuffer(device_, sizeof(shafts::ShaftFrame),
-                           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                           VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                               VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                            "Alpenglow shaft frame", &frame_);
   if (status != Status::Ok) return status;
+  const uint32_t side = shafts::blocksAcross(desc_.sunMapSize);
+  if (exact()) {
+    status = engine::createBuffer(device_, kBlocksHead + VkDeviceSize{4} * side * side,
+                                  VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                      VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                  "Alpenglow shaft blocks", &blocks_);
+    if (status != Status::Ok) return status;
+  }
   const bool paper = desc_.method == ShaftMethod::Paper;
   const uint32_t count = paper ? 2 : exact() ? 1 : 0;
   engine::Image* images[] = {&targets_[0], &targets_[1]};
@@ -111,19 +130,20 @@ Status Shafts::makeTargets() {
     if (status != Status::Ok) return status;
     ++targetCount_;
   }
-  engine::Buffer* buffers[] = {&frame_};
+  engine::Buffer* buffers[] = {&frame_, &blocks_};
   return engine::allocateAndBind(device_, "Alpenglow shafts", VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
-                                 images, targetCount_, buffers, 1, &memory_);
+                                 images, targetCount_, buffers, exact() ? 2 : 1, &memory_);
 }
 
 Status Shafts::makeSet() {
   const VkShaderStageFlags geometry =
       desc_.method == ShaftMethod::Paper ? VK_SHADER_STAGE_GEOMETRY_BIT : 0;
   const VkDescriptorSetLayoutBinding bindings[kBindingCount] = {
-      {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kMapStages | geometry, nullptr},
-      sampled(1, kMapStages | geometry),
+      {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kMapStages | geometry | kCompute, nullptr},
+      sampled(1, kMapStages | geometry | kCompute),
       sampled(2, VK_SHADER_STAGE_FRAGMENT_BIT),
-      sampled(3, VK_SHADER_STAGE_FRAGMENT_BIT)};
+      sampled(3, VK_SHADER_STAGE_FRAGMENT_BIT),
+      {4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kMapStages | kCompute, nullptr}};
   Status status =
       engine::createSetLayout(device_, bindings, kBindingCount, "Alpenglow shafts", &setLayout_);
   if (status != Status::Ok) return status;
@@ -141,7 +161,8 @@ Status Shafts::makeSet() {
   writer.uniformBuffer(0, frame_.handle)
       .sampledImage(1, map, sampler)
       .sampledImage(2, sums, sampler)
-      .sampledImage(3, bounds, sampler);
+      .sampledImage(3, bounds, sampler)
+      .storageBuffer(4, exact() ? blocks_.handle : frame_.handle);
   return writer.flush(device_);
 }
 
@@ -154,6 +175,17 @@ Status Shafts::makePipelines() {
   if (status == Status::Ok) status = makePipeline(false, &pipeline_);
   if (status == Status::Ok && looksUp()) status = makePipeline(true, &volumePipeline_);
   return status;
+}
+
+Status Shafts::makeCulling() {
+  namespace s = alpenglow::shaders;
+  const Status status = engine::createPipelineLayout(device_, &setLayout_, 1, nullptr, 0,
+                                                     "Alpenglow shaft blocks", &cullLayout_);
+  if (status != Status::Ok) return status;
+  engine::ComputePipelineDesc desc;
+  desc.shader = {s::kShaftCull, sizeof s::kShaftCull, "cull.comp"};
+  desc.layout = cullLayout_;
+  return engine::createComputePipeline(device_, desc, &cullPipeline_);
 }
 
 Status Shafts::makePipeline(bool fromVolume, VkPipeline* out) {
@@ -211,6 +243,7 @@ Status Shafts::record(VkCommandBuffer commands, const Tables& tables, const SkyD
   if (status != Status::Ok) return status;
   status =
       updateFrame(commands, shafts::makeShaftFrame(tables.parameters(), desc_, map_.place(), draw));
+  if (status == Status::Ok && exact()) status = cullBlocks(commands);
   if (status == Status::Ok && targetCount_ > 0)
     status = drawShadows(commands, tables, draw, casters, air);
   if (status != Status::Ok) return status;
@@ -220,7 +253,8 @@ Status Shafts::record(VkCommandBuffer commands, const Tables& tables, const SkyD
 }
 
 Status Shafts::updateFrame(VkCommandBuffer commands, const shafts::ShaftFrame& frame) {
-  constexpr VkPipelineStageFlags2 kReaders = VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT;
+  constexpr VkPipelineStageFlags2 kReaders =
+      VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   engine::Barriers barriers;
   barriers.memory(kReaders, VK_ACCESS_2_NONE,
                   VK_PIPELINE_STAGE_2_CLEAR_BIT | VK_PIPELINE_STAGE_2_COPY_BIT,
@@ -231,6 +265,39 @@ Status Shafts::updateFrame(VkCommandBuffer commands, const shafts::ShaftFrame& f
   barriers.memory(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, kReaders,
                   VK_ACCESS_2_UNIFORM_READ_BIT);
   return barriers.record(device_, commands);
+}
+
+Status Shafts::cullBlocks(VkCommandBuffer commands) {
+  const engine::Dispatch& vk = device_.vk();
+  const uint32_t side = shafts::blocksAcross(desc_.sunMapSize);
+  const uint32_t strip = 2 * shafts::kShaftBlock + 4;
+  const VkDrawIndirectCommand none = {strip * shafts::kShaftBlock, 0, 0, 0};
+  vk.CmdUpdateBuffer(commands, blocks_.handle, 0, sizeof none, &none);
+  engine::Barriers barriers;
+  barriers.memory(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                  VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                      VK_ACCESS_2_UNIFORM_READ_BIT);
+  Status status = barriers.record(device_, commands);
+  if (status != Status::Ok) return status;
+  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, cullPipeline_);
+  vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, cullLayout_, 0, 1, &set_, 0,
+                           nullptr);
+  vk.CmdDispatch(commands, (side * side + 63) / 64, 1, 1);
+  ++device_.counters().dispatches;
+  barriers.memory(VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                  VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
+                      VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                  VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+  return barriers.record(device_, commands);
+}
+
+void Shafts::drawSurface(VkCommandBuffer commands, const SkyDraw& draw, VkPipeline pipeline) {
+  const engine::Dispatch& vk = device_.vk();
+  shafts::setArea(device_, commands, draw.viewport);
+  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+  vk.CmdDrawIndirect(commands, blocks_.handle, 0, 1, 0);
+  ++device_.counters().draws;
 }
 
 Status Shafts::drawShadows(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw,
@@ -271,10 +338,7 @@ Status Shafts::drawShadows(VkCommandBuffer commands, const Tables& tables, const
                            sets, 0, nullptr);
   const VkPipeline pipeline = lookUp ? volumePipeline_ : pipeline_;
   if (exact()) {
-    shafts::setArea(device_, commands, draw.viewport);
-    vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    vk.CmdDraw(commands, 2 * desc_.sunMapSize, desc_.sunMapSize - 1, 0, 0);
-    ++device_.counters().draws;
+    drawSurface(commands, draw, pipeline);
   } else {
     CasterPass pass;
     pass.device = &device_;

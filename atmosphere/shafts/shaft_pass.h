@@ -52,9 +52,13 @@ struct Shafts {
   Status makeTargets();
   Status makeSet();
   Status makePipelines();
+  Status makeCulling();
   Status makePipeline(bool fromVolume, VkPipeline* out);
   Status checkMap(const SkyDraw& draw) const;
   Status updateFrame(VkCommandBuffer commands, const shafts::ShaftFrame& frame);
+  /// Which blocks of the surface between light and shadow this frame sees.
+  Status cullBlocks(VkCommandBuffer commands);
+  void drawSurface(VkCommandBuffer commands, const SkyDraw& draw, VkPipeline pipeline);
   Status drawShadows(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw,
                      const Casters& casters, VkDescriptorSet air);
 
@@ -62,8 +66,8 @@ struct Shafts {
   engine::Device& device_;
   ShaftsDesc desc_;
   shafts::SunMap map_;
-  engine::Buffer frame_;
-  engine::Image targets_[2];  ///< Sums; bounds of the paper's.
+  engine::Buffer frame_, blocks_;  ///< AlpenglowShaftFrame; AlpenglowShaftBlocks, if exact.
+  engine::Image targets_[2];       ///< Sums; bounds of the paper's.
   uint32_t targetCount_ = 0;
   engine::MemoryBlock memory_;
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE, airLayout_ = VK_NULL_HANDLE;
@@ -72,8 +76,10 @@ struct Shafts {
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;        ///< Integrates where it needs light.
   VkPipeline volumePipeline_ = VK_NULL_HANDLE;  ///< Looks it up.
-  uint64_t tablesId_ = 0;                       ///< 0: nothing recorded yet.
-  SkyDraw draw_;                                ///< Of the last record.
+  VkPipelineLayout cullLayout_ = VK_NULL_HANDLE;
+  VkPipeline cullPipeline_ = VK_NULL_HANDLE;  ///< If exact.
+  uint64_t tablesId_ = 0;                     ///< 0: nothing recorded yet.
+  SkyDraw draw_;                              ///< Of the last record.
 };
 
 }  // namespace v1

@@ -41,7 +41,7 @@ TEST_F(ShaftBench, Cost) {
       ShaftSetup setup;
       setup.shafts = method >= 0;
       setup.method = static_cast<ShaftMethod>(std::max(method, 0));
-      setup.sunMapSize = 2048;
+      setup.sunMapSize = method == 0 ? 1024 : 2048;
       setup.passes = 2;
       const ShaftPicture p = draw(setup, d);
       const ShaftSeconds& s = p.seconds;

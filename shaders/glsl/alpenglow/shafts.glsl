@@ -31,13 +31,28 @@ layout(set = ALPENGLOW_SHAFT_SET, binding = 0, std140) uniform AlpenglowShaftFra
   vec4 pixels;         // ndc of a pixel: 2 / size, xy; method; 1: orthographic
   vec4 airSlice;       // AirView of the camera: SliceView, extinction_
   vec4 airSun;         // horizontal unit vector towards the sun; startHeight
-  vec4 airHeight;      // height; unused
+  vec4 airHeight;      // height; metres that the surface lies behind what the sun meets
 } alpenglowShaft;
 
 // Depth, seen from the sun; the frame's results.
 layout(set = ALPENGLOW_SHAFT_SET, binding = 1) uniform sampler2D alpenglowSunMap;
 layout(set = ALPENGLOW_SHAFT_SET, binding = 2) uniform sampler2D alpenglowShaftSums;
 layout(set = ALPENGLOW_SHAFT_SET, binding = 3) uniform sampler2D alpenglowShaftBounds;
+
+// The blocks of the surface between light and shadow that this frame sees, a VkDrawIndirectCommand first.
+const int kShaftBlock = 16;  // cells on a side; also in atmosphere/shafts/shaft_frame.h
+#ifndef ALPENGLOW_SHAFT_BLOCKS_ACCESS
+#define ALPENGLOW_SHAFT_BLOCKS_ACCESS readonly
+#endif
+layout(set = ALPENGLOW_SHAFT_SET, binding = 4, std430) ALPENGLOW_SHAFT_BLOCKS_ACCESS buffer
+AlpenglowShaftBlocks {
+  uint vertexCount;
+  uint instanceCount;
+  uint firstVertex;
+  uint firstInstance;
+  float start;  // 1 if the camera is in shadow
+  uint blocks[];
+} alpenglowShaftBlocks;
 
 // Position in the map: texels, and depth.
 vec3 alpenglowOnSunMap(vec3 position) {
@@ -70,16 +85,22 @@ float alpenglowBeamLength(vec3 p) {
   return hits ? rho2 / max(sqrt(max(delta, 0.0)) - rMu, 1e-6) : alpenglowShaft.map.y;
 }
 
-// A vertex of the surface between light and shadow: what the sun meets at a texel's middle, or where its beam
-// ends if it meets nothing.
+// The point of a beam, at texels of the map, some metres below where depth is 0.
+vec3 alpenglowOnBeam(vec2 at, float along) {
+  return alpenglowShaft.cornerStep.xyz +
+         at.x * alpenglowShaft.cornerStep.w * alpenglowShaft.rowStep.xyz +
+         at.y * alpenglowShaft.rowStep.w * alpenglowShaft.columnStep.xyz -
+         along * alpenglowShaft.sunRange.xyz;
+}
+
+// A vertex of the surface between light and shadow: a little behind what the sun meets at a texel's middle, so
+// that what is lit hides it, or where its beam ends if it meets nothing.
 vec3 alpenglowShadowVertex(ivec2 texel) {
   float depth = texelFetch(alpenglowSunMap, texel, 0).r;
   vec2 middle = vec2(texel) + 0.5;
-  vec3 start = alpenglowShaft.cornerStep.xyz +
-               middle.x * alpenglowShaft.cornerStep.w * alpenglowShaft.rowStep.xyz +
-               middle.y * alpenglowShaft.rowStep.w * alpenglowShaft.columnStep.xyz;
-  float along = depth < 1.0 ? depth * alpenglowShaft.sunRange.w : alpenglowBeamLength(start);
-  return start - along * alpenglowShaft.sunRange.xyz;
+  float along = depth < 1.0 ? depth * alpenglowShaft.sunRange.w
+                            : alpenglowBeamLength(alpenglowOnBeam(middle, 0.0));
+  return alpenglowOnBeam(middle, along + alpenglowShaft.airHeight.y);
 }
 
 // Whether a point lies behind that surface, of which each cell is two triangles, as surface.vert draws it.

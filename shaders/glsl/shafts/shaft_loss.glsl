@@ -7,7 +7,9 @@ layout(constant_id = 9) const int kShaftSamples = 32;
 // Of single scattering alone, from where the ray passes the surface between light and shadow.
 Spectrum exactLoss(vec2 fragCoord, Spectrum whole) {
   vec4 sums = texelFetch(alpenglowShaftSums, ivec2(fragCoord), 0);
-  float shadows = (alpenglowBehindSurface(alpenglowRayOrigin(fragCoord)) ? 1.0 : 0.0) + sums.a;
+  float start = alpenglowShaftBlocks.start;
+  if (kOrthographic) start = alpenglowBehindSurface(alpenglowRayOrigin(fragCoord)) ? 1.0 : 0.0;
+  float shadows = start + sums.a;
   Spectrum lit = sums.rgb + (shadows > 0.5 ? SPECTRUM(0.0) : whole);
   return whole - clamp(lit, SPECTRUM(0.0), whole);
 }

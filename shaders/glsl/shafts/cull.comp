@@ -1,0 +1,58 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Which blocks of the surface between light and shadow a frame may see: an indirect draw of a strip for each.
+// Also whether the camera itself is in shadow.
+
+layout(local_size_x = 64) in;
+
+#define ALPENGLOW_SHAFT_SET 0
+#define ALPENGLOW_SHAFT_BLOCKS_ACCESS
+#include "alpenglow/shafts.glsl"
+
+// The least and the greatest way along the beam to the vertices of a block; nothing if the sun meets nothing.
+bool blockReach(ivec2 first, out float least, out float greatest) {
+  least = 1e30;
+  greatest = 0.0;
+  float empty = 0.0;
+  int last = int(alpenglowShaft.map.x) - 1;
+  for (int y = 0; y <= kShaftBlock; ++y) {
+    for (int x = 0; x <= kShaftBlock; ++x) {
+      float depth = texelFetch(alpenglowSunMap, min(first + ivec2(x, y), ivec2(last)), 0).r;
+      bool met = depth < 1.0;
+      least = met ? min(least, depth) : least;
+      greatest = met ? max(greatest, depth) : greatest;
+      empty = met ? empty : 1.0;
+    }
+  }
+  if (empty > 0.0) greatest = max(greatest, alpenglowShaft.map.y / alpenglowShaft.sunRange.w);
+  return least < 1.0;
+}
+
+// Whether all corners of the box around a block lie on the outer side of one of the picture's edges.
+bool outsidePicture(ivec2 first, float least, float greatest) {
+  vec4 low = vec4(1.0), high = vec4(1.0);  // products over the corners: 1 if all are outside
+  float behind = 1.0;
+  for (int i = 0; i < 8; ++i) {
+    vec2 at = vec2(first) + 0.5 + float(kShaftBlock) * vec2(i & 1, i >> 1 & 1);
+    float depth = (i & 4) == 0 ? least : greatest;
+    vec3 p = alpenglowOnBeam(at, depth * alpenglowShaft.sunRange.w + alpenglowShaft.airHeight.y);
+    vec4 clip = alpenglowShaft.clipFromCamera * vec4(p, 1.0);
+    low.xy *= vec2(lessThan(clip.xy, -clip.ww));
+    high.xy *= vec2(greaterThan(clip.xy, clip.ww));
+    behind *= clip.w < 0.0 ? 1.0 : 0.0;
+  }
+  return max(max(low.x, low.y), max(max(high.x, high.y), behind)) > 0.5;
+}
+
+void main() {
+  int side = (int(alpenglowShaft.map.x) - 2) / kShaftBlock + 1;
+  int index = int(gl_GlobalInvocationID.x);
+  ivec2 first = ivec2(index % side, index / side) * kShaftBlock;
+  float least, greatest;
+  bool any_ = blockReach(first, least, greatest);
+  if (index < side * side && any_ && !outsidePicture(first, least, greatest)) {
+    uint slot = atomicAdd(alpenglowShaftBlocks.instanceCount, 1u);
+    alpenglowShaftBlocks.blocks[slot] = uint(index);
+  }
+  if (index == 0) alpenglowShaftBlocks.start = alpenglowBehindSurface(vec3(0.0)) ? 1.0 : 0.0;
+}
