@@ -20,7 +20,7 @@ void main() {
   float t = kOrthographic ? dot(position, view) : length(position);
   // The ground's sphere is in no depth image.
   bool reached = !ray.hitsGround || t < ray.start + ray.extent;
-  // The strips show their fronts to the shadow.
-  float sign_ = reached ? (gl_FrontFacing ? -1.0 : 1.0) : 0.0;
+  // The strips show their fronts to the light.
+  float sign_ = reached ? (gl_FrontFacing ? 1.0 : -1.0) : 0.0;
   sums = vec4(sign_ * alpenglowAirSingle(airRayOf(ray, view), t), sign_);
 }
