@@ -7,8 +7,8 @@
 #include <exception>
 
 #include "atmosphere/io/exr_header.h"
+#include "atmosphere/io/image_format.h"
 #include "atmosphere/io/oiio.h"
-#include "atmosphere/io/png_chunks.h"
 #include "atmosphere/model/physics_cpp.h"
 
 namespace alpenglow::io {
@@ -38,18 +38,6 @@ OIIO::ImageSpec rgbSpec(uint32_t width, uint32_t height, OIIO::TypeDesc type) {
   OIIO::ImageSpec spec(static_cast<int>(width), static_cast<int>(height), 3, type);
   spec.attribute("DateTime", "");  // Else the library adds the time, and no two files are equal.
   return spec;
-}
-
-// The library's name of the format that the first bytes belong to; null for others.
-const char* formatOf(const std::string& bytes) {
-  const auto starts = [&](const char* magic, size_t size) {
-    return bytes.compare(0, size, magic, size) == 0;
-  };
-  if (starts("\xFF\xD8\xFF", 3)) return "jpeg";
-  if (starts("\x89PNG", 4)) return "png";
-  if (starts("\x76\x2F\x31\x01", 4)) return "openexr";
-  if (starts("II*\0", 4) || starts("MM\0*", 4)) return "tiff";
-  return nullptr;
 }
 
 uint8_t encodeLevel(float linear) {
@@ -122,26 +110,14 @@ std::vector<uint8_t> encoded(const std::vector<float>& linear) {
   return bytes;
 }
 
-// What can be told before the image library allocates, or prints complaints of its own.
-std::string damageOf(const std::string& format, const std::string& bytes) {
-  constexpr uint64_t kMaxTexels = uint64_t{kMaxAlbedoWidth} * kMaxAlbedoHeight;
-  if (format == "png") return checkPngChunks(bytes);
-  if (format == "jpeg") {  // libjpeg fills what is missing with grey; its end marker tells.
-    const size_t tail = std::min<size_t>(bytes.size(), 4096);
-    const bool whole = bytes.find("\xFF\xD9", bytes.size() - tail) != std::string::npos;
-    return whole ? "" : "is a truncated JPEG image";
-  }
-  if (format == "openexr") return checkExrHeaders(bytes, kMaxTexels, 64);
-  return {};
-}
-
 Result<AlbedoMap> decodeAlbedo(const std::string& path, const std::string& bytes) {
   using Map = Result<AlbedoMap>;
-  const char* format = formatOf(bytes);
+  const char* format = imageFormatOf(bytes);
   if (format == nullptr) {
     return Map::failure("The albedo map '" + path + "' is no JPEG, PNG, TIFF or EXR image.");
   }
-  const std::string damage = damageOf(format, bytes);
+  constexpr uint64_t kMaxTexels = uint64_t{kMaxAlbedoWidth} * kMaxAlbedoHeight;
+  const std::string damage = imageDamage(format, bytes, kMaxTexels);
   if (!damage.empty()) return Map::failure("The albedo map '" + path + "' " + damage + ".");
   MemoryInput memory(bytes, format);
   const auto unreadable = [&](const std::string& reason) {

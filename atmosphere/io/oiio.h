@@ -20,13 +20,14 @@ inline std::string oneLine(std::string text) {
 }
 
 /// An image that is read from bytes in memory, which must outlive it. Members are destroyed in
-/// reverse, so the reader goes before the proxy that it reads through.
+/// reverse, so the reader goes before the proxy that it reads through. `config` holds the library's
+/// hints, such as "oiio:UnassociatedAlpha".
 struct MemoryInput {
   OIIO::Filesystem::IOMemReader proxy;
   std::unique_ptr<OIIO::ImageInput> input;
   std::string error;
 
-  MemoryInput(const std::string& bytes, const char* format)
+  MemoryInput(const std::string& bytes, const char* format, const OIIO::ImageSpec& config = {})
       : proxy(const_cast<char*>(bytes.data()), bytes.size()),
         input(OIIO::ImageInput::create(format)) {
     if (!input || !input->set_ioproxy(&proxy)) {
@@ -35,7 +36,7 @@ struct MemoryInput {
       return;
     }
     OIIO::ImageSpec spec;
-    if (!input->open("memory." + std::string(format), spec)) {
+    if (!input->open("memory." + std::string(format), spec, config)) {
       error = oneLine(input->geterror());
       input.reset();
     }

@@ -6,15 +6,12 @@
 #include <filesystem>
 
 #include "atmosphere/io/atmosphere_json.h"
+#include "atmosphere/io/scene_terrain.h"
 
 namespace alpenglow::io {
 namespace {
 
 constexpr double kMaxAltitude_m = 1e12;
-
-std::string relativeTo(const std::string& folder, const std::string& path) {
-  return (std::filesystem::path(folder) / path).string();
-}
 
 SceneSun readSun(JsonErrors* errors, const Json& value) {
   ObjectReader reader(errors, value, "sun.", "",
@@ -36,10 +33,31 @@ double readFov(JsonErrors* errors, ObjectReader* reader, Projection projection) 
   return radians(fov);
 }
 
+// An orthographic camera has a height in metres, the others an angle.
+void readProjection(JsonErrors* errors, ObjectReader* reader, SceneCamera* camera) {
+  const size_t choice = reader->choice("projection", {"perspective", "fisheye", "orthographic"});
+  if (choice < 2) {
+    camera->projection = static_cast<Projection>(choice);
+    camera->fov = readFov(errors, reader, camera->projection);
+    if (reader->has("height_m")) {
+      reader->wrong("height_m", "left out, because the projection isn't orthographic");
+    }
+    return;
+  }
+  const double height_m = reader->number("height_m");
+  if (errors->ok() && !(height_m > 0.0 && height_m <= kMaxAltitude_m)) {
+    reader->wrong("height_m", "more than 0 and at most " + showNumber(kMaxAltitude_m));
+  }
+  if (reader->has("fov_deg")) {
+    reader->wrong("fov_deg", "left out, because an orthographic camera has height_m");
+  }
+  camera->orthographicHeight_m = height_m;
+}
+
 SceneCamera readCamera(JsonErrors* errors, const Json& value) {
   ObjectReader reader(errors, value, "camera.", "",
                       {"latitude_deg", "longitude_deg", "altitude_m", "heading_deg", "pitch_deg",
-                       "roll_deg", "projection", "fov_deg"});
+                       "roll_deg", "projection", "fov_deg", "height_m"});
   SceneCamera camera;
   camera.latitude = radians(reader.numberOr("latitude_deg", 0.0, -90.0, 90.0));
   camera.longitude = radians(reader.numberOr("longitude_deg", 0.0));
@@ -48,9 +66,7 @@ SceneCamera readCamera(JsonErrors* errors, const Json& value) {
   camera.heading = radians(reader.numberOr("heading_deg", 0.0));
   camera.pitch = radians(reader.numberOr("pitch_deg", 0.0, -90.0, 90.0));
   camera.roll = radians(reader.numberOr("roll_deg", 0.0));
-  camera.projection =
-      static_cast<Projection>(reader.choice("projection", {"perspective", "fisheye"}));
-  camera.fov = readFov(errors, &reader, camera.projection);
+  readProjection(errors, &reader, &camera);
   return camera;
 }
 
@@ -80,8 +96,7 @@ void readAtmosphereOf(JsonErrors* errors, const Json& value, const std::string& 
 std::string readGround(JsonErrors* errors, const Json& value, const std::string& folder) {
   ObjectReader reader(errors, value, "ground.", "", {"albedo_map"});
   if (!reader.given("albedo_map")) return {};
-  const std::string path = reader.string("albedo_map");
-  return path.empty() ? path : relativeTo(folder, path);
+  return pathOf(&reader, "albedo_map", folder);
 }
 
 void readSize(JsonErrors* errors, ObjectReader* reader, Scene* scene) {
@@ -123,23 +138,23 @@ void readTableChoices(ObjectReader* reader, Scene* scene) {
   }
 }
 
-// Fields whose other values belong to features that this version doesn't have.
-void readLaterFeatures(JsonErrors* errors, ObjectReader* reader) {
-  if (reader->given("terrain")) {
-    reader->wrong("terrain", "null, because this version draws no terrain");
+void readShafts(JsonErrors* errors, ObjectReader* reader, Scene* scene) {
+  scene->shafts = static_cast<SceneShafts>(
+      reader->choice("shafts", {"auto", "paper", "exact", "march", "off"}));
+  if (reader->has("shaft_samples")) {
+    scene->shaftSamples = reader->integer("shaft_samples", 1, kMaxShaftSamples);
   }
-  reader->choice("model", {"bruneton"});
-  reader->choice("shafts", {"auto", "off"});
   if (reader->has("effects")) {
     ObjectReader effects(errors, reader->required("effects"), "effects.", "", {"light_shafts"});
-    effects.choice("light_shafts", {"auto", "off"});
+    if (effects.choice("light_shafts", {"auto", "off"}) == 1) scene->shafts = SceneShafts::Off;
   }
 }
 
 Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& folder) {
-  ObjectReader reader(errors, value, "", "",
-                      {"atmosphere", "sun", "camera", "ground", "terrain", "size", "exposure",
-                       "tone_map", "model", "solver", "orders", "quality", "shafts", "effects"});
+  ObjectReader reader(
+      errors, value, "", "",
+      {"atmosphere", "sun", "camera", "ground", "terrain", "size", "exposure", "tone_map", "model",
+       "solver", "orders", "quality", "shafts", "shaft_samples", "effects"});
   Scene scene;
   const Json& atmosphere = reader.required("atmosphere");
   const Json& sun = reader.required("sun");
@@ -155,11 +170,16 @@ Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& fo
   if (reader.given("ground")) {
     scene.albedoMap = readGround(errors, reader.required("ground"), folder);
   }
+  if (reader.given("terrain")) {
+    scene.terrain = readTerrain(errors, reader.required("terrain"), folder, scene.camera,
+                                scene.atmosphere.groundAlbedo);
+  }
   readSize(errors, &reader, &scene);
   scene.exposure = readExposure(&reader);
   scene.toneMap = static_cast<ToneMap>(reader.choice("tone_map", toneMapNames()));
   readTableChoices(&reader, &scene);
-  readLaterFeatures(errors, &reader);
+  reader.choice("model", {"bruneton"});
+  readShafts(errors, &reader, &scene);
   return scene;
 }
 

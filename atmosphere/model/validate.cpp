@@ -1,49 +1,16 @@
 #include <alpenglow/parameters.h>
 
-#include <charconv>
 #include <cmath>
-#include <cstring>
 #include <numbers>
 
 #include "atmosphere/model/limits.h"
+#include "atmosphere/model/sentence.h"
 
 namespace alpenglow {
 inline namespace v1 {
 namespace {
 
 using namespace model;
-
-/// Text of bounded length, so that a validator that must not throw needs no heap. `%g` of printf
-/// would follow the host's locale, to_chars doesn't.
-class Sentence {
- public:
-  Sentence& operator<<(const char* text) {
-    while (*text != '\0' && length_ + 1 < sizeof(text_)) {
-      text_[length_++] = *text++;
-    }
-    text_[length_] = '\0';
-    return *this;
-  }
-  Sentence& operator<<(double value) {
-    char digits[32];
-    const auto [end, error] =
-        std::to_chars(digits, digits + sizeof(digits) - 1, value, std::chars_format::general, 9);
-    *end = '\0';
-    return *this << digits;
-  }
-  void copyTo(char* message, size_t messageSize) const {
-    if (message == nullptr || messageSize == 0) {
-      return;
-    }
-    const size_t count = length_ < messageSize ? length_ : messageSize - 1;
-    std::memcpy(message, text_, count);
-    message[count] = '\0';
-  }
-
- private:
-  char text_[320] = {};
-  size_t length_ = 0;
-};
 
 /// The field as atmosphere files spell it: "mie.extinction_per_m[1]", or no index.
 struct Field {

@@ -11,6 +11,19 @@
 namespace alpenglow::cli {
 namespace {
 
+// What scene files may ask for and this version doesn't draw yet.
+void refuseUndrawn(const io::Scene& scene) {
+  if (scene.terrain) {
+    throw Failure("The scene has a terrain, '" + scene.terrain->heightMap +
+                  "', but this version draws none.");
+  }
+  if (scene.camera.orthographicHeight_m) {
+    throw Failure(
+        "The scene's camera is orthographic, but this version draws only perspectives "
+        "and fisheyes.");
+  }
+}
+
 void writePicture(const std::string& path, const io::Scene& scene, const io::LinearImage& image) {
   if (hasEnding(path, ".exr")) {
     check(io::writeExr(path, image));
@@ -26,6 +39,7 @@ void runRender(const RenderArguments& arguments) {
   const std::string& output = arguments.run.output;
   checkEnding(output, {".exr", ".png"});
   io::Scene scene = take(io::readScene(findScene(arguments.scene)));
+  refuseUndrawn(scene);
   if (!arguments.size.empty()) parsePictureSize(arguments.size, &scene.width, &scene.height);
   std::optional<io::AlbedoMap> albedo;
   if (!scene.albedoMap.empty()) albedo = take(io::readAlbedoMap(scene.albedoMap));

@@ -101,16 +101,18 @@ TEST(SceneFile, NamesMissingAndUnknownFields) {
 
 TEST(SceneFile, RefusesWrongValuesByName) {
   const std::pair<const char*, const char*> bad[] = {
-      {"size", "[0, 10]"},    {"size", "[10]"},      {"size", "[10.5, 3]"},
-      {"size", "[99999, 3]"}, {"size", "\"big\""},   {"size", "[-1, 3]"},
-      {"exposure", "0"},      {"exposure", "-1"},    {"exposure", "\"bright\""},
-      {"exposure", "1e999"},  {"tone_map", "\"x\""}, {"tone_map", "null"},
-      {"orders", "0"},        {"orders", "1001"},    {"orders", "2.5"},
-      {"orders", "\"many\""}, {"ground", "3"},       {"ground", "{\"albedo_map\": 3}"}};
+      {"size", "[0, 10]"},       {"size", "[10]"},          {"size", "[10.5, 3]"},
+      {"size", "[99999, 3]"},    {"size", "\"big\""},       {"size", "[-1, 3]"},
+      {"exposure", "0"},         {"exposure", "-1"},        {"exposure", "\"bright\""},
+      {"exposure", "1e999"},     {"tone_map", "\"x\""},     {"tone_map", "null"},
+      {"orders", "0"},           {"orders", "1001"},        {"orders", "2.5"},
+      {"orders", "\"many\""},    {"ground", "3"},           {"ground", "{\"albedo_map\": 3}"},
+      {"shaft_samples", "0"},    {"shaft_samples", "4097"}, {"shaft_samples", "1.5"},
+      {"shaft_samples", "null"}, {"shafts", "\"volumes\""}, {"shafts", "null"}};
   for (const auto& [field, value] : bad) expectMentions(errorOf(with(field, value)), {field});
   const std::pair<const char*, const char*> camera[] = {
-      {"latitude_deg", "91"}, {"pitch_deg", "-91"}, {"fov_deg", "0"},       {"fov_deg", "180"},
-      {"altitude_m", "NaN"},  {"roll_deg", "\"\""}, {"projection", "\"x\""}};
+      {"latitude_deg", "91"}, {"pitch_deg", "-91"}, {"fov_deg", "0"},        {"fov_deg", "180"},
+      {"altitude_m", "NaN"},  {"roll_deg", "\"\""}, {"projection", "\"x\""}, {"height_m", "100"}};
   for (const auto& [field, value] : camera) {
     const std::string text = std::string(R"({"atmosphere":"earth","sun":{"elevation_deg":1},)") +
                              "\"camera\":{\"" + field + "\":" + value + "}}";
@@ -121,13 +123,57 @@ TEST(SceneFile, RefusesWrongValuesByName) {
 }
 
 TEST(SceneFile, FeaturesOfLaterVersionsAreRefusedWithWhatExists) {
-  expectMentions(errorOf(with("terrain", "{}")), {"'terrain'", "no terrain"});
   expectMentions(errorOf(with("model", "\"preetham\"")), {"'model'", "\"bruneton\""});
   expectMentions(errorOf(with("shafts", "\"volumes\"")), {"'shafts'", "\"off\""});
   expectMentions(errorOf(with("effects", "{\"light_shafts\": \"on\"}")),
                  {"'effects.light_shafts'", "\"on\""});
-  EXPECT_TRUE(parseScene(with("shafts", "\"off\""), "s.json", ""));
-  EXPECT_TRUE(parseScene(with("effects", "{\"light_shafts\": \"off\"}"), "s.json", ""));
+}
+
+TEST(SceneFile, ShaftsHaveTheirNames) {
+  const auto shafts = [](const std::string& fields) {
+    const Result<Scene> result = parseScene(with("size", "[3, 2], " + fields), "s.json", "");
+    EXPECT_TRUE(result) << result.error;
+    return result ? *result : Scene{};
+  };
+  EXPECT_EQ(shafts("\"model\": \"bruneton\"").shafts, SceneShafts::Auto);
+  EXPECT_EQ(shafts("\"model\": \"bruneton\"").shaftSamples, 32u);
+  EXPECT_EQ(shafts("\"shafts\": \"auto\"").shafts, SceneShafts::Auto);
+  EXPECT_EQ(shafts("\"shafts\": \"paper\"").shafts, SceneShafts::Paper);
+  EXPECT_EQ(shafts("\"shafts\": \"exact\"").shafts, SceneShafts::Exact);
+  EXPECT_EQ(shafts("\"shafts\": \"march\", \"shaft_samples\": 4096").shafts, SceneShafts::March);
+  EXPECT_EQ(shafts("\"shafts\": \"march\", \"shaft_samples\": 4096").shaftSamples, 4096u);
+  EXPECT_EQ(shafts("\"shafts\": \"off\"").shafts, SceneShafts::Off);
+  EXPECT_EQ(shafts("\"shafts\": \"exact\", \"effects\": {\"light_shafts\": \"off\"}").shafts,
+            SceneShafts::Off);
+  EXPECT_EQ(shafts("\"shafts\": \"exact\", \"effects\": {\"light_shafts\": \"auto\"}").shafts,
+            SceneShafts::Exact);
+}
+
+std::string withCamera(const std::string& camera) {
+  return R"({"atmosphere": "earth", "sun": {"elevation_deg": 1}, "camera": )" + camera + "}";
+}
+
+TEST(SceneFile, AnOrthographicCameraHasAHeightAndNoAngle) {
+  const Result<Scene> scene =
+      parseScene(withCamera(R"({"projection": "orthographic", "height_m": 30000})"), "s.json", "");
+  ASSERT_TRUE(scene) << scene.error;
+  EXPECT_EQ(scene->camera.orthographicHeight_m, 30000.0);
+  EXPECT_EQ(scene->camera.projection, Projection::Perspective);
+  EXPECT_EQ(scene->camera.fov, 0.0);
+  EXPECT_FALSE(parseScene(kLeast, "s.json", "")->camera.orthographicHeight_m.has_value());
+  expectMentions(errorOf(withCamera(R"({"projection": "orthographic"})")),
+                 {"'camera.height_m'", "missing"});
+  for (const char* height : {"0", "-1", "2e12", "null", "\"tall\"", "NaN"}) {
+    expectMentions(
+        errorOf(withCamera(std::string(R"({"projection": "orthographic", "height_m": )") + height +
+                           "}")),
+        {"'camera.height_m'"});
+  }
+  expectMentions(
+      errorOf(withCamera(R"({"projection": "orthographic", "height_m": 1, "fov_deg": 60})")),
+      {"'camera.fov_deg'", "60", "left out"});
+  expectMentions(errorOf(withCamera(R"({"projection": "fisheye", "height_m": 5})")),
+                 {"'camera.height_m'", "5", "left out"});
 }
 
 TEST(SceneFile, SolverAndQualityHaveTheirNames) {

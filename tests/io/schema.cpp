@@ -19,6 +19,7 @@ class Checker {
 
   std::string check(const Json& root, const Json& schema, const Json& value,
                     const std::string& at) const {
+    if (schema.is_boolean()) return schema.get<bool>() ? "" : at + ": must not be there";
     for (const auto& item : schema.items()) {
       const std::string error = keyword(root, schema, item.key(), item.value(), value);
       if (!error.empty()) return error[0] == '@' ? at + error.substr(1) : at + ": " + error;
@@ -39,8 +40,8 @@ class Checker {
 
   std::string keyword(const Json& root, const Json& schema, const std::string& key,
                       const Json& rule, const Json& value) const {
-    static const std::set<std::string> kNotes = {"$schema", "$id",     "$defs",
-                                                 "title",   "default", "description"};
+    static const std::set<std::string> kNotes = {"$schema", "$id",         "$defs", "title",
+                                                 "default", "description", "then",  "else"};
     if (kNotes.count(key) != 0) return {};
     if (key == "type") {
       bool any = rule.is_string() && isType(rule, value);
@@ -57,6 +58,15 @@ class Checker {
     }
     if (key == "$ref") return reference(root, rule, value);
     if (key == "anyOf" || key == "oneOf") return alternatives(root, key, rule, value);
+    if (key == "if") {
+      const char* branch = check(root, rule, value, "").empty() ? "then" : "else";
+      const std::string error = check(root, schema.value(branch, Json(true)), value, "");
+      return error.empty() ? "" : "@" + error;
+    }
+    if (key == "minLength") {
+      const bool good = !value.is_string() || value.get<std::string>().size() >= rule.get<size_t>();
+      return good ? "" : "the text is too short";
+    }
     if (value.is_number()) return bound(key, rule, value.get<double>());
     return members(root, schema, key, rule, value);
   }

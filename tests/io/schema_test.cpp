@@ -44,7 +44,10 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
   Json good = Json::parse(R"({ "atmosphere": "earth", "sun": { "elevation_deg": 5 },
     "camera": { "fov_deg": 50, "projection": "fisheye" }, "ground": { "albedo_map": null },
     "size": [640, 480], "exposure": 2.5, "tone_map": "linear", "model": "bruneton",
-    "solver": null, "orders": null, "quality": null, "shafts": "off", "terrain": null,
+    "solver": null, "orders": null, "quality": null, "shafts": "march", "shaft_samples": 32,
+    "terrain": { "height_map": "a.png", "meters_per_pixel": [3, 4.5], "meters_per_unit": 2,
+                 "height_scale": 1, "base_m": 1, "fade_m": 0, "latitude_deg": 1, "longitude_deg": 2,
+                 "heading_deg": 3, "albedo": [0, 0.5, 1] },
     "effects": { "light_shafts": "auto" } })");
   Parameters mars;
   ASSERT_EQ(findPreset("mars", &mars), Status::Ok);
@@ -65,6 +68,10 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
                          "moments",
                          "high",
                          "linear",
+                         "orthographic",
+                         "paper",
+                         "",
+                         {0.5, 0.5, 0.5},
                          {640, 480},
                          {1, 2, 3},
                          {0, 5},
@@ -73,6 +80,8 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
                          "earth",
                          Json::object(),
                          {{"elevation_deg", 3}},
+                         {{"projection", "orthographic"}, {"height_m", 3}},
+                         {{"height_map", "a.png"}, {"meters_per_pixel", 3}},
                          {{"other", 1}}};
   int refused = 0;
   const auto compare = [&](const Json& scene) {
@@ -87,7 +96,25 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
     refused += read ? 0 : 1;
   };
   compare(good);
+  Json orthographic = good;
+  orthographic["camera"] = {{"projection", "orthographic"}, {"height_m", 3000}};
+  compare(orthographic);
   EXPECT_EQ(refused, 0);
+  for (const char* key : {"fov_deg", "height_m", "projection", "roll_deg"}) {
+    for (const Json& value : values) {
+      Json changed = orthographic;
+      changed["camera"][key] = value;
+      compare(changed);
+    }
+    Json without = orthographic;
+    without["camera"].erase(key);
+    compare(without);
+  }
+  for (const auto& field : good["terrain"].items()) {
+    Json without = good;
+    without["terrain"].erase(field.key());
+    compare(without);
+  }
   for (const auto& field : good.items()) {
     Json without = good;
     without.erase(field.key());
@@ -98,9 +125,12 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
       compare(changed);
     }
   }
-  for (const char* object : {"sun", "camera", "ground", "effects"}) {
-    for (const char* key : {"elevation_deg", "azimuth_deg", "disc_radius_deg", "latitude_deg",
-                            "altitude_m", "pitch_deg", "projection", "fov_deg", "light_shafts"}) {
+  for (const char* object : {"sun", "camera", "ground", "terrain", "effects"}) {
+    for (const char* key :
+         {"elevation_deg", "azimuth_deg",      "disc_radius_deg", "latitude_deg", "altitude_m",
+          "pitch_deg",     "projection",       "fov_deg",         "height_m",     "light_shafts",
+          "height_map",    "meters_per_pixel", "meters_per_unit", "height_scale", "base_m",
+          "fade_m",        "longitude_deg",    "heading_deg",     "albedo",       "albedo_map"}) {
       for (const Json& value : values) {
         Json changed = good;
         changed[object][key] = value;

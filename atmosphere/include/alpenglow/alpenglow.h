@@ -8,6 +8,7 @@
 #include <alpenglow/query.h>
 #include <alpenglow/shafts.h>
 #include <alpenglow/tables.h>
+#include <alpenglow/terrain.h>
 #include <alpenglow/types.h>
 #include <alpenglow/version.h>
 #include <alpenglow/view.h>

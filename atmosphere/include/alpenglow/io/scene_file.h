@@ -1,4 +1,5 @@
-// Scene files (docs/schema/scene.schema.json): an atmosphere, a sun, a camera and a picture.
+// Scene files (docs/schema/scene.schema.json): an atmosphere, a sun, a camera, the ground
+// and a picture.
 #pragma once
 
 #include <alpenglow/io/result.h>
@@ -27,7 +28,34 @@ struct SceneCamera {
   double pitch = 0.0;       ///< Above the horizontal.
   double roll = 0.0;        ///< Clockwise.
   Projection projection = Projection::Perspective;
-  double fov = 0.0;  ///< Default 60 degrees, or 180 for a fisheye.
+  double fov = 0.0;  ///< Default 60 degrees, or 180 for a fisheye; 0 where orthographic.
+  /// Given: the camera is orthographic and sees this many metres from bottom to top; `projection`
+  /// is then Perspective.
+  std::optional<double> orthographicHeight_m;
+};
+
+/// A height map on the ground. Angles in radians; see TerrainDesc for what the numbers do.
+struct SceneTerrain {
+  std::string heightMap;          ///< A path that can be opened from here, of an image.
+  double metersPerPixel[2] = {};  ///< Along a row, and from row to row.
+  double metersPerUnit = 1.0;     ///< Of the image's values.
+  double heightScale = 1.0;
+  double base_m = 0.0;
+  double fade_m = 0.0;
+  double latitude = 0.0;   ///< Of the centre. Default: the camera's.
+  double longitude = 0.0;  ///< Likewise.
+  double heading = 0.0;    ///< Clockwise; 0: the image's top edge faces north.
+  Spectrum albedo;         ///< Default: the atmosphere's groundAlbedo.
+  std::string albedoMap;   ///< An image over the height map, instead of `albedo`; empty: none.
+};
+
+/// How light shafts are drawn.
+enum class SceneShafts : uint32_t {
+  Auto,   ///< The program's choice; none where there is no terrain.
+  Paper,  ///< Shadow volumes, with the single length of shadow a ray of the 2008 paper.
+  Exact,  ///< The sum over all lit segments of a ray.
+  March,  ///< Samples along the ray in a shadow map.
+  Off,
 };
 
 struct Scene {
@@ -35,6 +63,9 @@ struct Scene {
   SceneSun sun;
   SceneCamera camera;
   std::string albedoMap;  ///< A path that can be opened from here; empty: the uniform albedo.
+  std::optional<SceneTerrain> terrain;
+  SceneShafts shafts = SceneShafts::Auto;  ///< Off, too, where effects.light_shafts is.
+  uint32_t shaftSamples = 32;              ///< Along a ray, of SceneShafts::March.
   uint32_t width = 1024;
   uint32_t height = 768;
   std::optional<double> exposure;  ///< A factor; none: automatic.
@@ -46,6 +77,8 @@ struct Scene {
 
 /// Most pixels along a side of a picture.
 inline constexpr uint32_t kMaxPictureSide = 16384;
+/// Most samples along a ray for light shafts.
+inline constexpr uint32_t kMaxShaftSamples = 4096;
 
 /// Reads and checks everything, the atmosphere included; paths in the file are relative to it.
 Result<Scene> readScene(const std::string& path);
