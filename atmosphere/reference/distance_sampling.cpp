@@ -17,12 +17,12 @@ double sumOf(const Spectrum& s) { return s.x + s.y + s.z; }
 
 DistanceSampling::DistanceSampling(const Medium& medium, const LightGuide& guide,
                                    const Stretch& stretch, double muS, double nu,
-                                   const Spectrum& counts, bool direct, bool ground)
+                                   const Spectrum& counts, bool direct, const EndSurface& surface)
     : nodes_(medium, stretch, muS, nu, RayNodes::kFine) {
   const int count = nodes_.count();
-  if (count < 2) {  // No air along the ray; the ground may still be there.
-    groundProbability_ = ground ? 1.0 : 0.0;
-    possible_ = ground;
+  if (count < 2) {  // No air along the ray; the surface may still be there.
+    surfaceProbability_ = surface.albedo != nullptr ? 1.0 : 0.0;
+    possible_ = surface.albedo != nullptr;
     return;
   }
   const Spectrum& betaR = medium.rayleighScattering;
@@ -46,21 +46,25 @@ DistanceSampling::DistanceSampling(const Medium& medium, const LightGuide& guide
       unguidedSum += step * (unguided[k - 1] + unguided[k]);
     }
   }
-  double groundLight = 0.0;
-  if (ground) {
+  double surfaceLight = 0.0;
+  if (surface.albedo != nullptr) {
     const RayNode& n = nodes_[count - 1];
-    const GuideLight light = guide.at(0.0, n.muS);
+    const GuideLight light = guide.at(surface.h, n.muS);
+    const double cosSun = surface.isMesh ? surface.cosSun : n.muS;
     const Spectrum incident =
-        light.sunlight * (std::max(n.muS, 0.0) / std::numbers::pi) + light.mean;
-    groundLight = sumOf(counts * n.transmittance * medium.groundAlbedo * incident);
+        light.sunlight * (std::max(cosSun, 0.0) / std::numbers::pi) + light.mean;
+    surfaceLight = sumOf(counts * n.transmittance * *surface.albedo * incident);
   }
-  const bool reflects = ground && sumOf(medium.groundAlbedo) > 0.0;
+  const bool reflects = surface.albedo != nullptr && sumOf(*surface.albedo) > 0.0;
   if (unguidedSum > kNothing) {
-    const double all = guidedSum + groundLight;
-    if (reflects)
-      groundProbability_ = std::clamp(all > kNothing ? groundLight / all : 0.5, 0.02, 0.98);
+    // The guide knows of no shadow: sunlight in the air before a mesh is less sure than its own.
+    const double least = surface.isMesh ? 0.2 : 0.02;
+    const double all = guidedSum + surfaceLight;
+    if (reflects) {
+      surfaceProbability_ = std::clamp(all > kNothing ? surfaceLight / all : 0.5, least, 0.98);
+    }
   } else {
-    groundProbability_ = reflects ? 1.0 : 0.0;
+    surfaceProbability_ = reflects ? 1.0 : 0.0;
   }
   possible_ = unguidedSum > kNothing || reflects;
   if (!(unguidedSum > kNothing)) return;

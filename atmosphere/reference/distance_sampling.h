@@ -8,7 +8,16 @@ namespace alpenglow::reference {
 
 struct DistanceSample {
   double t = 0.0;
-  double density = 1.0;  ///< Per metre in the air, a probability on the ground.
+  double density = 1.0;  ///< Per metre in the air, a probability on a surface.
+};
+
+/// What a ray ends on.
+struct EndSurface {
+  const physics_f64::Spectrum* albedo = nullptr;  ///< Null for none.
+  /// Of a mesh, altitude and the cosine between its normal and the sun; the ground's are the ray's.
+  bool isMesh = false;
+  double h = 0.0;
+  double cosSun = 0.0;
 };
 
 /// The density is linear between a ray's nodes. A part of it doesn't trust the guide, and a small
@@ -16,14 +25,14 @@ struct DistanceSample {
 class DistanceSampling {
  public:
   /// `counts`: what light of each channel, before this ray, counts for. `direct`: sunlight that
-  /// scatters at the event counts too.
+  /// scatters at the event counts too. `surface`: what the ray ends on.
   DistanceSampling(const Medium& medium, const LightGuide& guide, const Stretch& stretch,
                    double muS, double nu, const physics_f64::Spectrum& counts, bool direct,
-                   bool ground);
+                   const EndSurface& surface);
 
   /// False where nothing can come from along the ray.
   bool possible() const { return possible_; }
-  double groundProbability() const { return groundProbability_; }
+  double surfaceProbability() const { return surfaceProbability_; }
   /// `share`: the probability of an event in the air, which multiplies the density.
   DistanceSample sample(double u, double share) const;
 
@@ -37,7 +46,7 @@ class DistanceSampling {
   RayNodes nodes_;
   std::array<double, kMost> weights_{};
   std::array<double, kMost> sums_{};  ///< Integral of the weights up to each node.
-  double groundProbability_ = 0.0;
+  double surfaceProbability_ = 0.0;
   bool possible_ = false;
 };
 

@@ -35,25 +35,6 @@ void traceBatch(void* context, uint32_t i) {
   round.means[i] = sum / static_cast<double>(kBatchPaths);
 }
 
-/// Mean and standard error of the batches' means, for each channel.
-Estimate estimateOf(const std::vector<PhysicsSpectrum>& batches) {
-  const auto count = static_cast<double>(batches.size());
-  Estimate result;
-  for (uint32_t c = 0; c < kSpectrumSize; ++c) {
-    const auto channel = static_cast<glm::length_t>(c);
-    double sum = 0.0;
-    for (const PhysicsSpectrum& batch : batches) sum += batch[channel];
-    const double mean = sum / count;
-    double squares = 0.0;
-    for (const PhysicsSpectrum& batch : batches) {
-      squares += (batch[channel] - mean) * (batch[channel] - mean);
-    }
-    result.value[c] = mean;
-    result.error[c] = std::sqrt(squares / (count - 1.0) / count);
-  }
-  return result;
-}
-
 bool isReached(const Task& task, bool surface, const Estimate& estimate, double target) {
   for (uint32_t c = 0; c < kSpectrumSize; ++c) {
     const double factor = surface ? task.surfaceFactor[c] : 1.0;
@@ -102,6 +83,24 @@ Estimate runPart(const PathTracer& tracer, const Task& task, bool surface,
 }
 
 }  // namespace
+
+Estimate estimateOf(const std::vector<PhysicsSpectrum>& batches) {
+  const auto count = static_cast<double>(batches.size());
+  Estimate result;
+  for (uint32_t c = 0; c < kSpectrumSize; ++c) {
+    const auto channel = static_cast<glm::length_t>(c);
+    double sum = 0.0;
+    for (const PhysicsSpectrum& batch : batches) sum += batch[channel];
+    const double mean = sum / count;
+    double squares = 0.0;
+    for (const PhysicsSpectrum& batch : batches) {
+      squares += (batch[channel] - mean) * (batch[channel] - mean);
+    }
+    result.value[c] = mean;
+    result.error[c] = std::sqrt(squares / (count - 1.0) / count);
+  }
+  return result;
+}
 
 TaskResult run(const PathTracer& tracer, const Task& task, const ReferenceOptions& options,
                double target) {

@@ -15,6 +15,9 @@ struct Estimate {
   Spectrum error;
 };
 
+/// Mean and standard error of the batches' means, for each channel.
+Estimate estimateOf(const std::vector<physics_f64::Spectrum>& batches);
+
 /// What is estimated. With `air`: light scattered along a stretch of `length` metres in direction
 /// `view` by paths of `least` to `most` events. With `surface`: irradiance of the sky on a
 /// horizontal surface at `surfacePlace`, by paths of at most `surfaceMost` events.

@@ -16,6 +16,12 @@ struct Stretch {
   double length = 0.0;
 };
 
+/// A part of a ray, in metres from where it starts.
+struct RayInterval {
+  double from = 0.0;
+  double to = 0.0;
+};
+
 /// Distances from 0 to the stretch's length between which the densities are smooth and vary on one
 /// scale: the perigee, the altitudes where the absorption tent bends, and altitudes that grow by
 /// scale heights from the stretch's lowest point. Sorted, ends included.

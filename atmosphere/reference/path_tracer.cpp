@@ -82,6 +82,7 @@ struct PathTracer::Path {
   Spectrum light{0.0};
   uint32_t events = 0;
   uint32_t most = kAllOrders;
+  double gap = 0.0;  ///< From where on the ray may meet a mesh.
 };
 
 /// A direction and the density with which it was drawn, per steradian.
@@ -93,17 +94,24 @@ struct PathTracer::Drawn {
 /// Where a ray's light comes from: t metres along it, transmittance over probability included in
 /// the path's throughput already.
 struct PathTracer::Hit {
-  Vector position, normal;
+  Vector position, vertical;
   double h, nu, muS;
+  Vector normal;           ///< Of a surface, on the path's side.
+  const Spectrum* albedo;  ///< Of a surface; null in the air.
 };
 
-PathTracer::PathTracer(const Medium& medium)
-    : medium_(medium), columns_(medium_), guide_(medium_, columns_) {}
+PathTracer::PathTracer(const Medium& medium, const Scene* scene)
+    : medium_(medium), scene_(scene), columns_(medium_), guide_(medium_, columns_) {}
 
 Spectrum PathTracer::sunlight(double h, double muS) const {
   const double visible = physics_f64::sunVisibility(medium_, h, muS);
   if (!(visible > 0.0)) return Spectrum(0.0);
   return visible * exp(-columns_.depth(columns_.toTop(h, muS)));
+}
+
+/// Whether a mesh stands between a point and the sun. The planet does so in sunlight().
+bool PathTracer::isHidden(const Vector& position, const Vector& sun, double gap) const {
+  return scene_ != nullptr && scene_->meshes.blocked(position, sun, gap, kEndless);
 }
 
 /// One event of a path. False when the path has ended.
@@ -119,38 +127,59 @@ bool PathTracer::step(Path& path, double length, bool direct, bool sunAtEnd,
     length = ground ? physics_f64::distanceToGround(medium_, path.h, mu)
                     : physics_f64::distanceToTop(medium_, path.h, mu);
   }
+  std::optional<MeshHit> mesh;
+  if (whole && scene_ != nullptr) {
+    mesh = scene_->meshes.closest(path.position, path.direction, path.gap, length);
+  }
+  EndSurface surface;
+  if (mesh) {
+    length = mesh->t;
+    if (glm::dot(mesh->normal, path.direction) > 0.0) mesh->normal = -mesh->normal;
+    surface = {&scene_->albedo[mesh->mesh], true,
+               std::min(physics_f64::altitudeAt(medium_, path.h, mu, length), medium_.thickness),
+               glm::dot(mesh->normal, path.sun)};
+  } else if (ground) {
+    surface.albedo = &medium_.groundAlbedo;
+  }
   const Spectrum counts = path.throughput * path.relative;
   const DistanceSampling distances(medium_, guide_, {path.h, mu, length}, muS, nu, counts, direct,
-                                   ground);
+                                   surface);
   if (!distances.possible()) return false;
 
-  const double atGroundChance = distances.groundProbability();
+  const double surfaceChance = distances.surfaceProbability();
   const Column start = columns_.upwards(path.h, std::abs(mu));
   Hit hit;
   hit.nu = nu;
-  const bool hitsGround = atGroundChance > 0.0 && sampler.random() < atGroundChance;
-  DistanceSample sample{length, atGroundChance};
-  if (!hitsGround) sample = distances.sample(sampler.leading(), 1.0 - atGroundChance);
+  const bool hitsSurface = surfaceChance > 0.0 && sampler.random() < surfaceChance;
+  hit.albedo = hitsSurface ? surface.albedo : nullptr;
+  DistanceSample sample{length, surfaceChance};
+  if (!hitsSurface) sample = distances.sample(sampler.leading(), 1.0 - surfaceChance);
   hit.position = path.position + sample.t * path.direction;
-  hit.h = hitsGround
+  hit.h = hitsSurface && !mesh
               ? 0.0
               : std::min(physics_f64::altitudeAt(medium_, path.h, mu, sample.t), medium_.thickness);
-  hit.normal = hit.position / glm::length(hit.position);
-  hit.muS = std::clamp(glm::dot(hit.normal, path.sun), -1.0, 1.0);
+  hit.vertical = hit.position / glm::length(hit.position);
+  hit.muS = std::clamp(glm::dot(hit.vertical, path.sun), -1.0, 1.0);
+  if (hitsSurface && mesh) {
+    hit.normal = mesh->normal;
+  } else if (hitsSurface) {
+    hit.normal = hit.vertical;
+    hit.position = hit.vertical * medium_.bottomRadius;
+  }
   const double muEnd = physics_f64::muAt(medium_, path.h, mu, sample.t, hit.h);
   const Column column = columns_.between(path.h, mu, start, hit.h, muEnd);
   path.throughput *= exp(-columns_.depth(column)) / sample.density;
   path.position = hit.position;
   path.h = hit.h;
   ++path.events;
-  return hitsGround ? atGround(path, hit, sampler) : atAir(path, hit, sunAtEnd, sampler);
+  return hitsSurface ? atSurface(path, hit, sampler) : atAir(path, hit, sunAtEnd, sampler);
 }
 
 /// The direction that light scattered here came from.
 PathTracer::Drawn PathTracer::drawInAir(const Path& path, const Hit& hit, const GuideLight& light,
                                         double rayleighShare, PathSampler& sampler) const {
   const double g = medium_.mieAsymmetry;
-  const GuideLobe guided(guide_.directionsAt(hit.h, hit.muS), hit.normal, path.sun);
+  const GuideLobe guided(guide_.directionsAt(hit.h, hit.muS), hit.vertical, path.sun);
   // Peaked phase functions keep most for themselves: a path through haze scatters many times, and
   // each time a sample of theirs weighs the more the less they are trusted.
   const double dust = 1.0 - rayleighShare;
@@ -167,10 +196,11 @@ PathTracer::Drawn PathTracer::drawInAir(const Path& path, const Hit& hit, const 
   return {direction, lobes.density(direction, phases)};
 }
 
-/// The direction that light on a horizontal surface came from; it may be one from below.
-PathTracer::Drawn PathTracer::drawAbove(const Vector& normal, const Vector& sun, double h,
-                                        double muS, PathSampler& sampler) const {
-  const GuideLobe guided(guide_.directionsAt(h, muS), normal, sun);
+/// The direction that light on a surface came from; it may be one from below.
+PathTracer::Drawn PathTracer::drawAbove(const Vector& normal, const Vector& vertical,
+                                        const Vector& sun, double h, double muS,
+                                        PathSampler& sampler) const {
+  const GuideLobe guided(guide_.directionsAt(h, muS), vertical, sun);
   const bool haze = sumOf(medium_.mieScattering) > 0.0 && sumOf(guide_.at(h, muS).sunlight) > 0.0;
   const Lobes lobes(guided, sun, medium_.mieAsymmetry, haze ? 0.2 : 0.0, 0.4);
   const double choice = sampler.leading(), u = sampler.leading(), v = sampler.leading();
@@ -185,7 +215,8 @@ bool PathTracer::atAir(Path& path, const Hit& hit, bool sunAtEnd, PathSampler& s
   const Spectrum rayleigh =
       medium_.rayleighScattering * physics_f64::rayleighDensity(medium_, hit.h);
   const Spectrum mie = medium_.mieScattering * physics_f64::mieDensity(medium_, hit.h);
-  if (sunAtEnd) {
+  path.gap = 0.0;
+  if (sunAtEnd && !isHidden(hit.position, path.sun, 0.0)) {
     path.light += path.throughput *
                   (rayleigh * physics_f64::rayleighPhase(hit.nu) +
                    mie * physics_f64::miePhase(medium_.mieAsymmetry, hit.nu)) *
@@ -212,25 +243,26 @@ bool PathTracer::atAir(Path& path, const Hit& hit, bool sunAtEnd, PathSampler& s
   return true;
 }
 
-/// Lambert's law for the sun, and the direction of a ray above the ground.
-bool PathTracer::atGround(Path& path, const Hit& hit, PathSampler& sampler) const {
-  path.position = hit.normal * medium_.bottomRadius;
-  if (hit.muS > 0.0) {
-    path.light += path.throughput * medium_.groundAlbedo * (hit.muS / kPi) * sunlight(0.0, hit.muS);
+/// Lambert's law for the sun, and the direction of a ray above the ground or a mesh.
+bool PathTracer::atSurface(Path& path, const Hit& hit, PathSampler& sampler) const {
+  path.gap = kSurfaceGap;
+  const double cosSun = std::clamp(glm::dot(hit.normal, path.sun), -1.0, 1.0);
+  if (cosSun > 0.0 && !isHidden(hit.position, path.sun, kSurfaceGap)) {
+    path.light += path.throughput * *hit.albedo * (cosSun / kPi) * sunlight(hit.h, hit.muS);
   }
   if (path.events >= path.most) return false;
-  const GuideLight light = guide_.at(0.0, hit.muS);
-  const double promise = sumOf(path.throughput * path.relative * medium_.groundAlbedo * light.mean);
+  const GuideLight light = guide_.at(hit.h, hit.muS);
+  const double promise = sumOf(path.throughput * path.relative * *hit.albedo * light.mean);
   const double survival = std::clamp(promise / kSurvival, kLeastSurvival, 1.0);
   if (survival < 1.0) {
     if (sampler.random() >= survival) return false;
     path.throughput /= survival;
   }
-  const Drawn drawn = drawAbove(hit.normal, path.sun, 0.0, hit.muS, sampler);
+  const Drawn drawn = drawAbove(hit.normal, hit.vertical, path.sun, hit.h, hit.muS, sampler);
   path.direction = drawn.direction;
   const double cosine = glm::dot(drawn.direction, hit.normal);
   if (!(cosine > 0.0)) return false;
-  path.throughput *= medium_.groundAlbedo * (cosine / kPi / drawn.density);
+  path.throughput *= *hit.albedo * (cosine / kPi / drawn.density);
   return true;
 }
 
@@ -261,7 +293,7 @@ Spectrum PathTracer::irradianceSample(const Observer& observer, uint32_t most,
   sampler.nextPath();
   if (most == 0 || observer.h > medium_.thickness) return Spectrum(0.0);
   const Vector normal(0.0, 0.0, 1.0);
-  const Drawn drawn = drawAbove(normal, observer.sun, observer.h, observer.sun.z, sampler);
+  const Drawn drawn = drawAbove(normal, normal, observer.sun, observer.h, observer.sun.z, sampler);
   if (!(drawn.direction.z > 0.0)) return Spectrum(0.0);
   Path path;
   path.direction = drawn.direction;
@@ -272,6 +304,49 @@ Spectrum PathTracer::irradianceSample(const Observer& observer, uint32_t most,
   path.relative = 1.0 / (3.0 * glm::max(roughIrradiance(observer), Spectrum(1e-30)));
   path.most = most;
   follow(path, sampler);
+  return path.light;
+}
+
+PathTracer::AirLight PathTracer::airSample(const Vector& position, const Vector& view,
+                                           const Vector& sun, double length, bool withSingle,
+                                           const Spectrum& relative, PathSampler& sampler) const {
+  sampler.nextPath();
+  AirLight result;
+  if (!(length > 0.0)) return result;
+  Path path;
+  path.h = std::clamp(glm::length(position) - medium_.bottomRadius, 0.0, medium_.thickness);
+  path.position = position;
+  path.direction = view;
+  path.sun = sun;
+  path.relative = relative;
+  const bool goesOn = step(path, length, withSingle, withSingle, sampler);
+  result.t = glm::dot(path.position - position, view);
+  result.single = path.light;
+  path.light = Spectrum(0.0);
+  if (goesOn) follow(path, sampler);
+  result.multiple = path.light;
+  return result;
+}
+
+Spectrum PathTracer::surfaceSample(const Vector& position, const Vector& normal, const Vector& sun,
+                                   const Spectrum& albedo, PathSampler& sampler) const {
+  sampler.nextPath();
+  Path path;
+  Hit hit;
+  hit.position = position;
+  hit.vertical = position / glm::length(position);
+  hit.h = std::clamp(glm::length(position) - medium_.bottomRadius, 0.0, medium_.thickness);
+  hit.nu = 0.0;
+  hit.muS = std::clamp(glm::dot(hit.vertical, sun), -1.0, 1.0);
+  hit.normal = normal;
+  hit.albedo = &albedo;
+  path.position = position;
+  path.h = hit.h;
+  path.sun = sun;
+  const Spectrum rough = albedo * guide_.at(hit.h, hit.muS).mean;
+  path.relative = 1.0 / (3.0 * glm::max(rough, Spectrum(1e-30)));
+  path.events = 1;
+  if (atSurface(path, hit, sampler)) follow(path, sampler);
   return path.light;
 }
 

@@ -8,6 +8,7 @@
 #include "atmosphere/reference/columns.h"
 #include "atmosphere/reference/directions.h"
 #include "atmosphere/reference/light_guide.h"
+#include "atmosphere/reference/mesh_rays.h"
 #include "atmosphere/reference/random.h"
 
 namespace alpenglow::reference {
@@ -21,9 +22,20 @@ struct Observer {
   Vector sun{0.0, 0.0, 1.0};
 };
 
+/// Opaque things in the air. They stop light and reflect it by Lambert's law on both sides.
+struct Scene {
+  MeshRays meshes;
+  std::vector<physics_f64::Spectrum> albedo;  ///< Of each mesh.
+};
+
+/// Rays from a surface begin this far above it, in metres: well above rounding.
+inline constexpr double kSurfaceGap = 1e-4;
+
 class PathTracer {
  public:
-  explicit PathTracer(const physics_f64::Medium& medium);
+  /// `scene`: outlives the tracer; null for the bare planet, whose numbers it leaves as they are.
+  /// The rough solution knows nothing of it and only guides: all estimates remain unbiased.
+  explicit PathTracer(const physics_f64::Medium& medium, const Scene* scene = nullptr);
   PathTracer(const PathTracer&) = delete;
   PathTracer& operator=(const PathTracer&) = delete;
   const physics_f64::Medium& medium() const { return medium_; }
@@ -42,7 +54,25 @@ class PathTracer {
   physics_f64::Spectrum irradianceSample(const Observer& observer, uint32_t most,
                                          PathSampler& sampler) const;
 
-  /// About what the two estimate for all orders.
+  /// Light of a ray's first event in the air, and of those after it.
+  struct AirLight {
+    physics_f64::Spectrum single{0.0}, multiple{0.0};
+    double t = 0.0;  ///< Distance of the first event.
+  };
+  /// One path's estimate of the light scattered along the first `length` metres of a ray, given in
+  /// the planet's frame, inside the atmosphere; nothing may lie in its way. `relative` as above.
+  /// Without `withSingle` paths are drawn for what is multiple alone, and single is 0.
+  AirLight airSample(const Vector& position, const Vector& view, const Vector& sun, double length,
+                     bool withSingle, const physics_f64::Spectrum& relative,
+                     PathSampler& sampler) const;
+
+  /// One path's estimate of the radiance that leaves a surface, whose normal points to the side
+  /// looked at, by paths of any number of events.
+  physics_f64::Spectrum surfaceSample(const Vector& position, const Vector& normal,
+                                      const Vector& sun, const physics_f64::Spectrum& albedo,
+                                      PathSampler& sampler) const;
+
+  /// About what the first two estimate for all orders.
   physics_f64::Spectrum roughSky(const Observer& observer, const Vector& view, double length) const;
   physics_f64::Spectrum roughIrradiance(const Observer& observer) const;
 
@@ -52,15 +82,17 @@ class PathTracer {
   struct Drawn;
   bool step(Path& path, double length, bool direct, bool sunAtEnd, PathSampler& sampler) const;
   bool atAir(Path& path, const Hit& hit, bool sunAtEnd, PathSampler& sampler) const;
-  bool atGround(Path& path, const Hit& hit, PathSampler& sampler) const;
+  bool atSurface(Path& path, const Hit& hit, PathSampler& sampler) const;
   Drawn drawInAir(const Path& path, const Hit& hit, const GuideLight& light, double rayleighShare,
                   PathSampler& sampler) const;
-  Drawn drawAbove(const Vector& normal, const Vector& sun, double h, double muS,
-                  PathSampler& sampler) const;
+  Drawn drawAbove(const Vector& normal, const Vector& vertical, const Vector& sun, double h,
+                  double muS, PathSampler& sampler) const;
   void follow(Path& path, PathSampler& sampler) const;
   physics_f64::Spectrum sunlight(double h, double muS) const;
+  bool isHidden(const Vector& position, const Vector& sun, double gap) const;
 
   physics_f64::Medium medium_;
+  const Scene* scene_;
   Columns columns_;
   LightGuide guide_;
 };

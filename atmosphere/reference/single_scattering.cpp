@@ -74,10 +74,21 @@ SunlitRay makeSunlitRay(const Medium& medium, const ProbeQuery& query,
   return sunlit;
 }
 
-/// The light scattered along a stretch: equation 11 of the paper for J of the direct sun.
+/// Shadows counted from where a stretch begins.
+std::vector<RayInterval> shadowsFrom(double start, std::span<const RayInterval> shadow) {
+  std::vector<RayInterval> result;
+  for (const RayInterval& s : shadow) {
+    if (s.to > start) result.push_back({std::max(s.from - start, 0.0), s.to - start});
+  }
+  return result;
+}
+
+/// The light scattered along a stretch: equation 11 of the paper for J of the direct sun. With
+/// shadows it is equation 13, and as many lit parts as they leave.
 class SingleScattering {
  public:
-  SingleScattering(const Medium& medium, const SunlitRay& ray, double tolerance)
+  SingleScattering(const Medium& medium, const SunlitRay& ray, double tolerance,
+                   const std::vector<RayInterval>& shadow)
       : medium_(medium),
         ray_(ray),
         tolerance_(tolerance),
@@ -85,11 +96,18 @@ class SingleScattering {
         pieces_(smoothPieces(medium, ray.stretch)) {
     addSunlightPieces(medium, ray, pieces_);
     addFreePaths();
+    for (const RayInterval& s : shadow) {
+      pieces_.push_back(s.from);
+      pieces_.push_back(s.to);
+    }
     tidyPieces(pieces_, ray.stretch.length);
     depths_.resize(pieces_.size());
     lit_.resize(pieces_.size() - 1);
+    hidden_.resize(pieces_.size() - 1);
     for (size_t i = 0; i + 1 < pieces_.size(); ++i) {
-      lit_[i] = visibilityAt(0.5 * (pieces_[i] + pieces_[i + 1])) > 0.0;
+      const double middle = 0.5 * (pieces_[i] + pieces_[i + 1]);
+      hidden_[i] = isInside(shadow, middle);
+      lit_[i] = visibilityAt(middle) > 0.0;
       depths_[i + 1] = depths_[i];
       add(depths_[i + 1],
           opticalDepthBetween(medium, ray.stretch, pieces_[i], pieces_[i + 1], depthTolerance_));
@@ -126,6 +144,12 @@ class SingleScattering {
     }
   }
 
+  static bool isInside(const std::vector<RayInterval>& shadow, double t) {
+    const auto after = std::upper_bound(shadow.begin(), shadow.end(), t,
+                                        [](double x, const RayInterval& s) { return x < s.to; });
+    return after != shadow.end() && t >= after->from;
+  }
+
   /// In thick air the light comes from a few mean free paths, far less than a scale height.
   void addFreePaths() {
     const physics_f64::Spectrum density = physics_f64::extinction(medium_, ray_.stretch.h);
@@ -157,7 +181,7 @@ class SingleScattering {
     // A parallel beam steps at a piece's end, and its step is decided for the piece as a whole.
     const bool sharp = !(medium_.sunSinRadius > 0.0);
     const double visibility = sharp ? (lit_[piece] ? 1.0 : 0.0) : visibilityAt(t);
-    if (!(visibility > 0.0)) {
+    if (hidden_[piece] || !(visibility > 0.0)) {
       return {};
     }
     const double h = physics_f64::altitudeAt(medium_, ray_.stretch.h, ray_.stretch.mu, t);
@@ -185,6 +209,7 @@ class SingleScattering {
   std::vector<double> pieces_;
   std::vector<SpectrumIntegral> depths_;  ///< From the start to each end of a piece.
   std::vector<bool> lit_;                 ///< Of each piece, for a sun without a disc.
+  std::vector<bool> hidden_;              ///< Whether a piece lies in one of the shadows.
 };
 
 /// R[L0] at the end of a ray on the ground (equation 10): Lambert's law for the direct sun.
@@ -219,7 +244,8 @@ bool isValid(const ProbeQuery& query) {
                                std::isfinite(query.distance_m)));
 }
 
-ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, double tolerance) {
+ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, double tolerance,
+                                 std::span<const RayInterval> shadow) {
   ReferenceAnswer answer;
   if (query.irradiance) {
     const Estimate direct = directIrradiance(medium, query.altitude_m, std::cos(query.sunZenith),
@@ -236,9 +262,10 @@ ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, 
     return answer;
   }
   const SunlitRay segment = makeSunlitRay(medium, query, resolved);
+  const std::vector<RayInterval> dark = shadowsFrom(resolved.ray.start, shadow);
   Estimate transmittance{answer.value.transmittance, {}};
   if (segment.stretch.length > 0.0) {
-    const SingleScattering scattering(medium, segment, tolerance);
+    const SingleScattering scattering(medium, segment, tolerance, dark);
     transmittance = transmittanceOf(scattering.depth());
     const Estimate sky = scattering.radiance();
     answer.value.skyRadiance = sky.value;
@@ -247,7 +274,9 @@ ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, 
   answer.value.transmittance = transmittance.value;
   answer.standardError.transmittance = transmittance.error;
   answer.value.hitsGround = resolved.endsOnGround;
-  if (answer.value.hitsGround) {
+  const double end = segment.stretch.length * (1.0 - 1e-9);
+  const bool groundIsDark = !dark.empty() && dark.back().to >= end;
+  if (answer.value.hitsGround && !groundIsDark) {
     const Estimate ground =
         groundRadiance(medium, segment, transmittance, depthTolerance(tolerance));
     answer.value.groundRadiance = ground.value;

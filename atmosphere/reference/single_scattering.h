@@ -3,7 +3,9 @@
 
 #include <alpenglow/reference.h>
 
-#include "atmosphere/model/physics_cpp.h"
+#include <span>
+
+#include "atmosphere/reference/optical_depth.h"
 
 namespace alpenglow::reference {
 
@@ -14,9 +16,12 @@ inline constexpr double kRelativeTolerance = 1e-9;
 /// from 0 to 180 degrees.
 bool isValid(const ProbeQuery& query);
 
-/// Single scattering for a valid query, each value to about `tolerance` times itself.
+/// Single scattering for a valid query, each value to about `tolerance` times itself. `shadow`:
+/// where along the ray, in metres from the observer, something hides the sun besides the planet:
+/// sorted, apart, as shadowIntervals() gives them. The ground under the ray's end is dark if one
+/// reaches it.
 ReferenceAnswer singleScattering(const physics_f64::Medium& medium, const ProbeQuery& query,
-                                 double tolerance);
+                                 double tolerance, std::span<const RayInterval> shadow = {});
 
 /// alpenglow::bandSunElevation() of a valid query.
 double bandSunElevation(const physics_f64::Medium& medium, const ProbeQuery& query);

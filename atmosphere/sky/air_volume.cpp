@@ -14,7 +14,7 @@ namespace {
 
 /// Push constants of air_volume.comp.
 struct AirConstants {
-  float altitude, muS, horizon, span, bend, extinction, height;
+  float altitude, muS, horizon, span, bend, extinction, startHeight, height;
 };
 
 constexpr VkExtent3D kExtent = {physics_f32::kAirColumns, physics_f32::kAirRows,
@@ -147,7 +147,7 @@ Status AirVolume::record(VkCommandBuffer commands, const Tables& tables, const S
   const AirConstants constants = {f(altitude),           f(muS),
                                   f(view.slice.horizon), f(view.slice.span),
                                   f(view.slice.bend),    f(view.extinction_),
-                                  f(view.height)};
+                                  f(view.startHeight),   f(view.height)};
   const engine::Dispatch& vk = device_.vk();
   const VkDescriptorSet sets[] = {tables.descriptorSet(), set_};
   vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);

@@ -127,6 +127,7 @@ LookupConstants AirTest::lookupConstants(const Parameters& parameters, const Sky
   k.span = f(lookup.view.slice.span);
   k.bend = f(lookup.view.slice.bend);
   k.extinction = f(lookup.view.extinction_);
+  k.startHeight = f(lookup.view.startHeight);
   k.height = f(lookup.view.height);
   return k;
 }

@@ -31,7 +31,8 @@ struct LookupConstants {
   float up[3], altitude;
   float sun[3], count;
   float azimuth[3], horizon;
-  float span, bend, extinction, height;
+  float span, bend, extinction, startHeight;
+  float height;
 };
 
 class AirTest : public SkyTest {

@@ -20,7 +20,8 @@ layout(push_constant) uniform Draw {
   vec4 upAltitude;
   vec4 sunCount;        // w: queries
   vec4 azimuthHorizon;  // AirView from here on
-  vec4 rest;            // span, bend, extinction, height
+  vec4 rest;            // span, bend, extinction, startHeight
+  float height;
 };
 
 void main() {
@@ -31,7 +32,7 @@ void main() {
   // Metres of air, or the negative share of all that there is.
   float inside = queries[i].w < 0.0 ? -queries[i].w * ray.extent : queries[i].w;
   float distance_ = ray.start + inside;
-  AirView air = AirView(SliceView(azimuthHorizon.w, rest.x, rest.y), rest.z, rest.w);
+  AirView air = AirView(SliceView(azimuthHorizon.w, rest.x, rest.y), rest.z, rest.w, height);
   AirRay airRay = alpenglowAirRay(air, upAltitude.xyz, azimuthHorizon.xyz, ray, view);
   AirLight light = alpenglowAirLight(airRay, distance_);
   answers[i].single = vec4(light.single, alpenglowInside(ray, distance_));

@@ -102,7 +102,9 @@ class AirVolumeTest : public AirTest {
         scene = std::max(scene, off / std::max(wanted, 1e-3 * brightest));
         single = std::max(single, std::abs(double(a.single[c]) - double(a.wantedSingle[c])) /
                                       std::max(double(a.wantedSingle[c]), 1e-2 * wanted + 1e-12));
-        depth = std::max(depth, std::abs(std::exp(double(a.wantedDepth[c] - a.depth[c])) - 1.0));
+        depth = std::max(
+            depth, std::abs(std::exp(-double(a.depth[c])) - std::exp(-double(a.wantedDepth[c]))) /
+                       std::max(std::exp(-double(a.wantedDepth[c])), 1e-3));
       }
       if (a.inside >= 100.0f) {
         errors.own.push_back(own);

@@ -10,7 +10,8 @@ const int kAirDistances = 40;
 struct AirView {
   SliceView slice;
   Real extinction_;  // where rays begin, 1/m, of the channel that loses most
-  Real height;       // in which the air thins out by e, m: the least there is
+  Real startHeight;  // in which the air thins out by e there, m
+  Real height;       // the least such
 };
 
 ALPENGLOW_FN AirView airView(IN(Medium) m, IN(SliceView) slice, Real altitude) {
@@ -18,6 +19,7 @@ ALPENGLOW_FN AirView airView(IN(Medium) m, IN(SliceView) slice, Real altitude) {
   Spectrum e = extinction(m, min(altitude, m.thickness));
   view.slice = slice;
   view.extinction_ = max(max(e[0], e[1]), e[2]);
+  view.startHeight = localScaleHeight(m, min(altitude, m.thickness));
   view.height = min(m.rayleighScaleHeight, m.mieScaleHeight);
   return view;
 }
@@ -60,7 +62,7 @@ ALPENGLOW_FN AirStretch airStretch(IN(Medium) m, IN(AirView) view, IN(Ray) ray) 
   Real gain2 = view.height * (REAL(2.0) * m.bottomRadius + view.height);
   Real endMu = max(-(rMu + ray.extent), REAL(0.0));  // times Rg, of one that hits the ground
   a.extent = max(ray.extent, REAL(1e-3));
-  a.near_ = REAL(1.0) / (view.extinction_ + max(ray.mu, REAL(0.0)) / view.height + REAL(1e-12));
+  a.near_ = REAL(1.0) / (view.extinction_ + abs(ray.mu) / view.startHeight + REAL(1e-12));
   a.far_ = ray.hitsGround ? gain2 / (endMu + sqrt(endMu * endMu + gain2)) : sqrt(gain2);
   a.lowest = max(-rMu, REAL(0.0));
   a.hitsGround = ray.hitsGround;
@@ -91,10 +93,11 @@ ALPENGLOW_FN Real airDistance(IN(AirStretch) a, Real w) {
   return w < REAL(1.0) ? clamp(t, REAL(0.0), a.extent) : a.extent;
 }
 
-// Distance of texel i. The first stands for the ray's beginning: means of next to nothing.
+// Distance of texel i. The first stands for the ray's beginning: means of next to nothing. Never 0, whatever
+// the shortest rays round to.
 ALPENGLOW_FN Real airTexelDistance(IN(AirStretch) a, int i) {
-  return airDistance(a, max(unitFromTexel(Real(i), Real(kAirDistances)),
-                            REAL(0.01) / Real(kAirDistances)));
+  Real w = max(unitFromTexel(Real(i), Real(kAirDistances)), REAL(0.01) / Real(kAirDistances));
+  return max(airDistance(a, w), REAL(1e-3) * w * a.extent);
 }
 
 // Texture coordinate of a distance.
@@ -103,17 +106,21 @@ ALPENGLOW_FN Real airCoordinate(IN(AirStretch) a, Real t) {
 }
 
 // A texel keeps ratios to the optical depth, which hardly change from texel to texel and have a limit at
-// distance 0: its mean over the channels, per metre, as a logarithm; the other two channels' and single
-// scattering (without phase functions) as shares of that; multiple scattering as a share too, but its
-// logarithm, because across the terminator it falls by orders of magnitude.
+// distance 0: its mean over the channels, per metre, and as shares of it the other two channels' and light.
+// What may fall by orders of magnitude from texel to texel, across the terminator, is a logarithm. Single
+// scattering is the sum of both kinds without phase functions, and the aerosols' part of it; in the planet's
+// shadow it is nothing, so its logarithm has a floor far below daylight, which is taken off again.
+ALPENGLOW_FN Real airFloor() { return REAL(1e-4); }
+
 ALPENGLOW_FN void encodeAir(Spectrum rayleigh, Spectrum mie, Spectrum multiple, Spectrum depth, Real t,
                             OUT(Real4) first, OUT(Real4) second, OUT(Real4) third) {
   Real mean = max((depth[0] + depth[1] + depth[2]) / REAL(3.0), darkness() * t);
-  Spectrum r = rayleigh / mean;
-  Spectrum mi = mie / mean;
+  Spectrum floored = (rayleigh + mie) / mean + airFloor();
+  Spectrum s = log(floored);
+  Spectrum share = mie / mean / floored;
   Spectrum mu = log(max(multiple / mean, SPECTRUM(darkness())));
-  first = Real4(r[0], r[1], r[2], log(mean / t));
-  second = Real4(mi[0], mi[1], mi[2], depth[1] / mean);
+  first = Real4(s[0], s[1], s[2], log(mean / t));
+  second = Real4(share[0], share[1], share[2], depth[1] / mean);
   third = Real4(mu[0], mu[1], mu[2], depth[2] / mean);
 }
 
@@ -122,9 +129,10 @@ ALPENGLOW_FN Real airMeanDepth(Real4 first, Real t) { return exp(first[3]) * t; 
 
 ALPENGLOW_FN Spectrum airSingle(Real4 first, Real4 second, Real mean, Real phaseRayleigh,
                                 Real phaseMie) {
-  return (Spectrum(first[0], first[1], first[2]) * phaseRayleigh +
-          Spectrum(second[0], second[1], second[2]) * phaseMie) *
-         mean;
+  Spectrum floored = exp(Spectrum(first[0], first[1], first[2]));
+  Spectrum mie = Spectrum(second[0], second[1], second[2]) * floored;
+  Spectrum rayleigh = max(floored - airFloor() - mie, SPECTRUM(REAL(0.0)));
+  return (rayleigh * phaseRayleigh + mie * phaseMie) * mean;
 }
 
 ALPENGLOW_FN Spectrum airMultiple(Real4 third, Real mean) {

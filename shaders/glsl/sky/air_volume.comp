@@ -15,7 +15,7 @@ layout(set = 1, binding = 2, ALPENGLOW_STORAGE) uniform writeonly image3D airThi
 layout(push_constant) uniform Camera {
   float altitude;
   float muS;
-  float horizon, span, bend, extinction_, height;  // AirView
+  float horizon, span, bend, extinction_, startHeight, height;  // AirView
 };
 
 void storeTexel(ivec3 texel, PathWalk walk) {
@@ -29,7 +29,7 @@ void storeTexel(ivec3 texel, PathWalk walk) {
 
 void main() {
   ivec2 column = ivec2(gl_GlobalInvocationID.xy);  // the image is whole groups
-  AirView view = AirView(SliceView(horizon, span, bend), extinction_, height);
+  AirView view = AirView(SliceView(horizon, span, bend), extinction_, startHeight, height);
   Ray ray = gridRay(alpenglowMedium, airGrid(view.slice), view.slice, altitude, muS, float(column.x),
                     float(column.y));
   AirStretch stretch = airStretch(alpenglowMedium, view, ray);
