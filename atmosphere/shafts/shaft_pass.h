@@ -34,6 +34,7 @@ struct Shafts {
 
   const ShaftsDesc& desc() const { return desc_; }
   bake::Resources& resources() const { return resources_; }
+  engine::Image& target(uint32_t i) { return targets_[i]; }
   VkDescriptorSetLayout setLayout() const { return setLayout_; }
   VkDescriptorSet set() const { return set_; }
   /// Whether they were recorded last for this draw's camera, sun and viewport.

@@ -47,6 +47,17 @@ std::unique_ptr<headless::Device> createDevice(headless::RequirementsFn requirem
   return headless::Device::create(options, error);
 }
 
+/// Vulkan 1.3 and the features that any capability of the library needs.
+Status everyFeature(PFN_vkGetInstanceProcAddr, VkInstance, VkPhysicalDevice, Requirements* out,
+                    std::string*) {
+  out->apiVersion = VK_API_VERSION_1_3;
+  out->synchronization2 = out->dynamicRendering = true;
+  out->features.dualSrcBlend = out->features.geometryShader = VK_TRUE;
+  out->features.depthClamp = out->features.shaderClipDistance = VK_TRUE;
+  out->features.independentBlend = VK_TRUE;
+  return Status::Ok;
+}
+
 std::unique_ptr<headless::Device>& sharedDevice() {
   static std::unique_ptr<headless::Device> instance;
   return instance;
@@ -75,7 +86,7 @@ bool contains(const std::string& text, const std::string& part) {
 void DeviceTest::SetUp() {
   if (sharedDevice() == nullptr) {
     std::string error;
-    sharedDevice() = createDevice(nullptr, &error);
+    sharedDevice() = createDevice(everyFeature, &error);
     ASSERT_NE(sharedDevice(), nullptr) << error;
   }
 }

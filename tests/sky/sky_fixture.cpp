@@ -156,6 +156,7 @@ Context* SkyTest::context() {
   s.vulkan = std::make_unique<VulkanWrap>(device().getInstanceProcAddr());
   ContextDesc desc = device().contextDesc();
   desc.getInstanceProcAddr = s.vulkan->getInstanceProcAddr();
+  desc.capabilities = kCapabilityBake | kCapabilitySky | kCapabilityAir | kCapabilityShafts;
   desc.diagnostic = [](void*, const Diagnostic& diagnostic) {
     shared().message = diagnostic.message;
   };

@@ -1,0 +1,74 @@
+// A small host with casters: draws them into its depth image, and the library's shadows, air and
+// sky; and the same rays for the reference in double.
+#pragma once
+
+#include <alpenglow/shafts.h>
+
+#include "atmosphere/reference/scene_light.h"
+#include "engine/memory.h"
+#include "engine/pipeline.h"
+#include "tests/reference/test_meshes.h"
+#include "tests/sky/sky_fixture.h"
+
+namespace alpenglow::testing {
+
+/// Local coordinates: metres up, east and north of the point of the ground at latitude 0, longitude
+/// 0, which are the planet's axes there, so `origin()` is all that lies between them.
+Vec groundOrigin(const Parameters& parameters);
+
+struct ShaftSetup {
+  ShaftMethod method = ShaftMethod::Exact;
+  DepthConvention depth = DepthConvention::Reversed;
+  Projection projection = Projection::Perspective;
+  bool sliced = true;  ///< Light from an air volume, else integrated.
+  VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
+  uint32_t sunMapSize = 1024;
+  uint32_t samples = 0;
+  bool hostDepth = true;  ///< The casters are drawn into the depth image too.
+  bool shafts = true;     ///< Else aerial perspective alone.
+};
+
+struct ShaftPicture {
+  Picture light;              ///< Of the air and the sky over a black scene.
+  std::vector<float> sums;    ///< Four a pixel (exact), or two (paper).
+  std::vector<float> bounds;  ///< Two a pixel (paper).
+  std::vector<float> depth;   ///< The host's.
+};
+
+class ShaftTest : public SkyTest {
+ protected:
+  void SetUp() override;
+  void TearDown() override;
+
+  /// In local coordinates; drawn by the next pictures and known to `rays()`.
+  void addCaster(const reference::test::Mesh& mesh);
+  void clearCasters();
+  /// All casters, in the planet's frame.
+  const reference::MeshRays& rays();
+  Parameters parameters;  ///< Of `baked`.
+  Tables* baked = nullptr;
+
+  /// At local (up, east, north), looking at angles like a scene's camera.
+  SkyDraw drawFrom(const Vec& local, double heading, double pitch, double fov, VkExtent2D extent,
+                   double sunElevation, double sunAzimuth);
+  ShaftPicture draw(const ShaftSetup& setup, const SkyDraw& draw);
+  /// Ray through the middle of a pixel, in the planet's frame: origin and direction.
+  std::pair<Vec, Vec> pixelRay(const ShaftSetup& setup, const SkyDraw& draw, double x, double y);
+
+ private:
+  struct CasterBuffers {
+    engine::Buffer vertices, indices;
+    engine::MemoryBlock block;
+    uint32_t indexCount = 0;
+  };
+  struct Target;
+  Casters casters();
+  void drawAll(VkCommandBuffer commands);
+
+  std::vector<reference::test::Mesh> meshes_;
+  std::vector<CasterBuffers> buffers_;
+  std::unique_ptr<reference::MeshRays> rays_;
+  Box bounds_;
+};
+
+}  // namespace alpenglow::testing
