@@ -139,7 +139,8 @@ ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,
   const sky::AirLookup air = sky::airLookup(parameters, draw);
   const double slice[3] = {air.view.slice.horizon, air.view.slice.span, air.view.slice.bend};
   store(frame.airSlice, slice, 1.0, air.view.extinction_);
-  store(frame.airSun, air.sunAzimuth, 1.0, air.view.height);
+  store(frame.airSun, air.sunAzimuth, 1.0, air.view.startHeight);
+  frame.airHeight[0] = static_cast<float>(air.view.height);
   return frame;
 }
 

@@ -29,8 +29,9 @@ struct ShaftFrame {
   float pixels[4];
   float airSlice[4];
   float airSun[4];
+  float airHeight[4];
 };
-static_assert(sizeof(ShaftFrame) == 256, "As std140 lays it out");
+static_assert(sizeof(ShaftFrame) == 272, "As std140 lays it out");
 
 /// Everything is computed in double and rounded once.
 ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,

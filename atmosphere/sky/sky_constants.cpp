@@ -188,7 +188,7 @@ AirConstants makeAirConstants(const Parameters& parameters, const ViewDesc& desc
   store(k.sunHeight, draw.sun.direction, 1.0, air.view.height);
   store(k.irradiance, draw.sun.irradiance.value,
         draw.radianceScale == 0.0 ? 1.0 : draw.radianceScale, 0.0);
-  store(k.slice, views, 1.0, 0.0);
+  store(k.slice, views, 1.0, air.view.startHeight);
   store(k.sunAzimuth, air.sunAzimuth, 1.0, 0.0);
   return k;
 }

@@ -2,6 +2,10 @@
 #extension GL_GOOGLE_include_directive : require
 // Translucent cloth at any depth: lit, then put behind its own part of the air, then blended over what has been
 // drawn with the air in front of that.
+#ifdef ALPENGLOW_SOLVER_STANDARD
+layout(constant_id = 0) const bool kMiePacked = false;
+#define ALPENGLOW_MIE_PACKED kMiePacked
+#endif
 #include "alpenglow/atmosphere.glsl"
 #ifdef WITH_SHAFTS
 #define ALPENGLOW_SHAFT_SET 3

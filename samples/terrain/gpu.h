@@ -71,8 +71,12 @@ class Gpu {
   using RunFn =
       std::function<void(const char* pass, const std::function<void(VkCommandBuffer)>& record)>;
 
-  /// Both outlive it.
-  Gpu(headless::Device* device, RunFn run) : device_(device), run_(std::move(run)) {}
+  /// Throws unless the status is Ok, with the sentence that the library gave its context.
+  using CheckFn = std::function<void(Status)>;
+
+  /// All outlive it.
+  Gpu(headless::Device* device, RunFn run, CheckFn check)
+      : device_(device), run_(std::move(run)), check_(std::move(check)) {}
 
   headless::Device& device() const { return *device_; }
 
@@ -106,6 +110,8 @@ class Gpu {
   /// Orders memory accesses of two uses; layouts don't count.
   void barrier(VkCommandBuffer commands, const ImageState& from, const ImageState& to) const;
 
+  /// Throws unless the library is content.
+  void check(Status status) const { check_(status); }
   /// Throws unless the result is good; `what` is a function's name.
   static void check(VkResult result, const char* what);
 
@@ -117,6 +123,7 @@ class Gpu {
 
   headless::Device* device_;
   RunFn run_;
+  CheckFn check_;
 };
 
 /// Uses of images, for barriers.

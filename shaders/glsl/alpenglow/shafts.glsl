@@ -27,7 +27,8 @@ layout(set = ALPENGLOW_SHAFT_SET, binding = 0, std140) uniform AlpenglowShaftFra
   vec4 wall;           // longest wall, metres; texels on a side of the map and of a block; the camera's radius
   vec4 pixels;         // ndc of a pixel: 2 / size, xy; method; 1: orthographic
   vec4 airSlice;       // AirView of the camera: SliceView, extinction_
-  vec4 airSun;         // horizontal unit vector towards the sun; AirView::height
+  vec4 airSun;         // horizontal unit vector towards the sun; startHeight
+  vec4 airHeight;      // height; unused
 } alpenglowShaft;
 
 // Depth in it, seen from the sun; as blocks, the greatest in and around each; the frame's results.
@@ -42,12 +43,12 @@ vec3 alpenglowOnSunMap(vec3 position) {
               dot(alpenglowShaft.mapDepth.xyz, position) + alpenglowShaft.mapDepth.w);
 }
 
-// Depth of what the sun meets first in a texel; 1 where it meets nothing.
+// Depth of what the sun meets first in a texel; beyond everything where it meets nothing.
 float alpenglowFirstDepth(vec2 texel) {
   float size = alpenglowShaft.wall.y;
   bool inside = min(texel.x, texel.y) >= 0.0 && max(texel.x, texel.y) < size;
   float depth = texelFetch(alpenglowSunMap, ivec2(clamp(texel, vec2(0.0), vec2(size - 1.0))), 0).r;
-  return inside ? depth : 1.0;
+  return inside && depth < 1.0 ? depth : 1e30;
 }
 
 // Whether a point lies in shadow: behind all four texels about it, so that a lit surface, or a point just

@@ -22,10 +22,10 @@ layout(push_constant) uniform AirConstants {
   vec4 upAltitude;       // the camera's vertical; altitude in metres
   vec4 forwardA;         // w: depth is a + b / z (perspective) or a + b z
   vec4 rightB;           // forward + x right + y down is the ray at (x, y) of the picture, or x right + y down
-  vec4 downExtinction;   // its origin; w: AirView
-  vec4 sunHeight;        // towards the sun; w: AirView
+  vec4 downExtinction;   // its origin; w: AirView::extinction_
+  vec4 sunHeight;        // towards the sun; w: AirView::height
   vec4 irradiance;       // solar irradiance times radianceScale
-  vec4 slice;            // SliceView
+  vec4 slice;            // SliceView; w: AirView::startHeight
   vec4 sunAzimuth;       // horizontal unit vector towards the sun
 };
 
@@ -50,7 +50,7 @@ void main() {
   }
   Ray ray = alpenglowRay(up, altitude, view, sunHeight.xyz);
 #ifdef ALPENGLOW_FROM_VOLUME
-  AirView airView_ = AirView(SliceView(slice.x, slice.y, slice.z), downExtinction.w, sunHeight.w);
+  AirView airView_ = AirView(SliceView(slice.x, slice.y, slice.z), downExtinction.w, slice.w, sunHeight.w);
   AirRay air = alpenglowAirRay(airView_, up, sunAzimuth.xyz, ray, view);
 #else
   AirRay air = AirRay(ray);
