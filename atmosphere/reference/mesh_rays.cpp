@@ -54,6 +54,7 @@ uint32_t MeshRays::addMesh(const Vector& origin, std::span<const T> positions,
     }
     return point;
   };
+  triangles_.reserve(triangles_.size() + indices.size() / 3);
   for (size_t i = 0; i + 2 < indices.size(); i += 3) {
     const std::array<Vector, 3> corners = {at(i), at(i + 1), at(i + 2)};
     const Vector normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);

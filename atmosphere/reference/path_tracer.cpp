@@ -111,7 +111,8 @@ Spectrum PathTracer::sunlight(double h, double muS) const {
 
 /// Whether a mesh stands between a point and the sun. The planet does so in sunlight().
 bool PathTracer::isHidden(const Vector& position, const Vector& sun, double gap) const {
-  return scene_ != nullptr && scene_->meshes.blocked(position, sun, gap, kEndless);
+  return scene_ != nullptr && scene_->hidesSun &&
+         scene_->meshes.blocked(position, sun, gap, kEndless);
 }
 
 /// One event of a path. False when the path has ended.

@@ -26,6 +26,9 @@ struct Observer {
 struct Scene {
   MeshRays meshes;
   std::vector<physics_f64::Spectrum> albedo;  ///< Of each mesh.
+  /// False: meshes let the sun's own light pass, and only that: what shadows do can be told from
+  /// what the rest does.
+  bool hidesSun = true;
 };
 
 /// Rays from a surface begin this far above it, in metres: well above rounding.

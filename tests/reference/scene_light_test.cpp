@@ -223,6 +223,21 @@ TEST(ScenePaths, TheSingleOrderIsTheExactOneBetweenShadows) {
   expectWithin(light.single, lit.value, 0.02, "single");
 }
 
+TEST(ScenePaths, MeshesThatLetTheSunPassCastNoShadow) {
+  const Medium m = makeMediumF64(preset("earth"));
+  const SceneRay ray = rayFrom(m.bottomRadius, rayQuery(500, 90, 60, 60));
+  // A roof over the ray: no sky above it, no sun, and with hidesSun off all of the sun.
+  Scene roof = sceneAbout(
+      ray, {box({-5e4, -5e4, 50}, {5e4, 5e4, 60}), box({2e3, -5e4, -50}, {2.1e3, 5e4, 50})}, 0.0);
+  roof.hidesSun = false;
+  const PathTracer tracer(m, &roof);
+  const SceneLight light = traceSceneRay(tracer, roof, ray, paths(1 << 14));
+  expectWithin(light.single, litScattering(m, ray, light.end.length, {}, 1e-7).value, 0.02, "air");
+  roof.hidesSun = true;
+  alpenglow::test::expectAll(traceSceneRay(tracer, roof, ray, paths(1 << 10)).single.value, 0.0,
+                             "under the roof");
+}
+
 // Among suns in all directions everything that neither absorbs nor emits has radiance 1, white
 // meshes as well: each sun's share of it is 1 over 4 pi.
 TEST(ScenePaths, WhiteMeshesKeepTheEnergy) {

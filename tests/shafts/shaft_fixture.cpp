@@ -262,12 +262,71 @@ struct ShaftTest::Target {
   VkDeviceSize used = 0;
 };
 
+Status ShaftTest::recordDepth(VkCommandBuffer commands, const ShaftSetup& setup,
+                              const SkyDraw& draw, Target& target) {
+  engine::Device& inner = *context()->device;
+  const Dispatch& vk = inner.vk();
+  const VkExtent2D size = draw.viewport.extent;
+  Barriers barriers;
+  barriers.discard(target.depth, kDepthDrawn);
+  EXPECT_EQ(barriers.record(inner, commands), Status::Ok);
+  auto depth = attachmentOf(target.depth, kDepthDrawn.layout, VK_ATTACHMENT_LOAD_OP_CLEAR,
+                            VK_ATTACHMENT_STORE_OP_STORE);
+  depth.clearValue.depthStencil = {setup.depth == DepthConvention::Reversed ? 0.0f : 1.0f, 0};
+  auto rendering = structure<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
+  rendering.renderArea = draw.viewport;
+  rendering.layerCount = 1;
+  rendering.pDepthAttachment = &depth;
+  if (hasStencil(setup.depthFormat)) rendering.pStencilAttachment = &depth;
+  vk.CmdBeginRendering(commands, &rendering);
+  if (setup.hostDepth) {
+    const VkViewport viewport = {0.0f, 0.0f, float(size.width), float(size.height), 0.0f, 1.0f};
+    vk.CmdSetViewport(commands, 0, 1, &viewport);
+    vk.CmdSetScissor(commands, 0, 1, &draw.viewport);
+    vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, target.pipeline);
+    HostConstants constants = {};
+    clipFromCamera(setup.projection, setup.depth, draw, constants.clipFromCamera);
+    const Vec origin = groundOrigin(parameters);
+    for (size_t i = 0; i < 3; ++i)
+      constants.fromCamera[i] = static_cast<float>(origin[i] - draw.camera.position_m[i]);
+    vk.CmdPushConstants(commands, target.layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof constants,
+                        &constants);
+    drawAll(commands);
+  }
+  vk.CmdEndRendering(commands);
+  barriers.image(target.depth, kDepthRead);
+  return barriers.record(inner, commands);
+}
+
+Status ShaftTest::recordLight(VkCommandBuffer commands, const ShaftSetup& setup,
+                              const SkyDraw& draw, View* view, Target& target) {
+  engine::Device& inner = *context()->device;
+  Barriers barriers;
+  barriers.discard(target.color, kColorDrawn);
+  EXPECT_EQ(barriers.record(inner, commands), Status::Ok);
+  auto color = attachmentOf(target.color, kColorDrawn.layout, VK_ATTACHMENT_LOAD_OP_CLEAR,
+                            VK_ATTACHMENT_STORE_OP_STORE);
+  auto depth = attachmentOf(target.depth, kDepthRead.layout, VK_ATTACHMENT_LOAD_OP_LOAD,
+                            VK_ATTACHMENT_STORE_OP_NONE);
+  auto rendering = structure<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
+  rendering.renderArea = draw.viewport;
+  rendering.layerCount = 1;
+  rendering.colorAttachmentCount = 1;
+  rendering.pColorAttachments = &color;
+  rendering.pDepthAttachment = &depth;
+  if (hasStencil(setup.depthFormat)) rendering.pStencilAttachment = &depth;
+  inner.vk().CmdBeginRendering(commands, &rendering);
+  Status status = recordAir(view, commands, device().frame(), baked, draw);
+  if (status == Status::Ok) status = recordSky(view, commands, device().frame(), baked, draw);
+  inner.vk().CmdEndRendering(commands);
+  return status;
+}
+
 ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
   engine::Device& inner = *context()->device;
   const VkExtent2D size = draw.viewport.extent;
   Target target(inner, device(), setup, size);
   const FrameInfo none{};
-  const bool reversed = setup.depth == DepthConvention::Reversed;
 
   // A view of the depth alone, as a host has one beside that of its attachment.
   VkImageViewCreateInfo viewInfo = structure<VkImageViewCreateInfo>(
@@ -307,67 +366,34 @@ ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
   ShaftPicture out;
   VkDeviceSize offsets[4] = {};
   const bool paper = setup.method == ShaftMethod::Paper, exact = setup.method == ShaftMethod::Exact;
-  run([&](VkCommandBuffer commands) {
-    const Dispatch& vk = inner.vk();
-    const FrameInfo frame = device().frame();
-    Barriers barriers;
-    barriers.discard(target.color, kColorDrawn);
-    barriers.discard(target.depth, kDepthDrawn);
-    EXPECT_EQ(barriers.record(inner, commands), Status::Ok);
-
-    auto depth = attachmentOf(target.depth, kDepthDrawn.layout, VK_ATTACHMENT_LOAD_OP_CLEAR,
-                              VK_ATTACHMENT_STORE_OP_STORE);
-    depth.clearValue.depthStencil = {reversed ? 0.0f : 1.0f, 0};
-    auto rendering = structure<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
-    rendering.renderArea = draw.viewport;
-    rendering.layerCount = 1;
-    rendering.pDepthAttachment = &depth;
-    if (hasStencil(setup.depthFormat)) rendering.pStencilAttachment = &depth;
-    vk.CmdBeginRendering(commands, &rendering);
-    if (setup.hostDepth) {
-      const VkViewport viewport = {0.0f, 0.0f, float(size.width), float(size.height), 0.0f, 1.0f};
-      vk.CmdSetViewport(commands, 0, 1, &viewport);
-      vk.CmdSetScissor(commands, 0, 1, &draw.viewport);
-      vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, target.pipeline);
-      HostConstants constants = {};
-      clipFromCamera(setup.projection, setup.depth, draw, constants.clipFromCamera);
-      const Vec origin = groundOrigin(parameters);
-      for (size_t i = 0; i < 3; ++i)
-        constants.fromCamera[i] = static_cast<float>(origin[i] - draw.camera.position_m[i]);
-      vk.CmdPushConstants(commands, target.layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof constants,
-                          &constants);
-      drawAll(commands);
+  const auto step = [&](double* seconds, const std::function<Status(VkCommandBuffer)>& record) {
+    headless::Timing timing;
+    std::string error = "Recording failed: " + message();
+    const bool ran = device().run(
+        [&](VkCommandBuffer commands) { return record(commands) == Status::Ok; }, &error, &timing);
+    EXPECT_TRUE(ran) << error << " " << message();
+    *seconds = timing.cpuSeconds;
+  };
+  for (uint32_t pass = 0; pass < setup.passes; ++pass) {
+    step(&out.seconds.depth, [&](VkCommandBuffer c) { return recordDepth(c, setup, draw, target); });
+    if (viewDesc.skySlice != nullptr) {
+      step(&out.seconds.slice, [&](VkCommandBuffer c) {
+        return recordSkySlice(view, c, device().frame(), baked, draw);
+      });
     }
-    vk.CmdEndRendering(commands);
-    barriers.image(target.depth, kDepthRead);
-    EXPECT_EQ(barriers.record(inner, commands), Status::Ok);
-
-    Status status = Status::Ok;
-    if (viewDesc.skySlice != nullptr) status = recordSkySlice(view, commands, frame, baked, draw);
-    if (status == Status::Ok && shafts != nullptr) {
-      status = recordSunMap(shafts, commands, frame, draw.sun.direction, casters());
-      if (status == Status::Ok)
-        status = recordShafts(shafts, view, commands, frame, baked, draw, casters());
+    if (shafts != nullptr) {
+      step(&out.seconds.sunMap, [&](VkCommandBuffer c) {
+        return recordSunMap(shafts, c, device().frame(), draw.sun.direction, casters());
+      });
+      step(&out.seconds.shafts, [&](VkCommandBuffer c) {
+        return recordShafts(shafts, view, c, device().frame(), baked, draw, casters());
+      });
     }
-    EXPECT_EQ(status, Status::Ok) << message();
-    if (status != Status::Ok) return false;
-
-    auto color = attachmentOf(target.color, kColorDrawn.layout, VK_ATTACHMENT_LOAD_OP_CLEAR,
-                              VK_ATTACHMENT_STORE_OP_STORE);
-    auto readOnly = attachmentOf(target.depth, kDepthRead.layout, VK_ATTACHMENT_LOAD_OP_LOAD,
-                                 VK_ATTACHMENT_STORE_OP_NONE);
-    rendering.colorAttachmentCount = 1;
-    rendering.pColorAttachments = &color;
-    rendering.pDepthAttachment = &readOnly;
-    if (hasStencil(setup.depthFormat)) rendering.pStencilAttachment = &readOnly;
-    vk.CmdBeginRendering(commands, &rendering);
-    status = recordAir(view, commands, frame, baked, draw);
-    EXPECT_EQ(status, Status::Ok) << message();
-    if (status == Status::Ok) status = recordSky(view, commands, frame, baked, draw);
-    EXPECT_EQ(status, Status::Ok) << message();
-    vk.CmdEndRendering(commands);
-    if (status != Status::Ok) return false;
-
+    step(&out.seconds.air,
+         [&](VkCommandBuffer c) { return recordLight(c, setup, draw, view, target); });
+  }
+  double unused = 0.0;
+  step(&unused, [&](VkCommandBuffer commands) {
     offsets[0] = target.copyBack(commands, target.color, VK_IMAGE_ASPECT_COLOR_BIT, 16);
     offsets[1] = target.copyBack(commands, target.depth, VK_IMAGE_ASPECT_DEPTH_BIT, 4);
     if (shafts != nullptr && exact)
@@ -376,7 +402,7 @@ ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
       offsets[2] = target.copyBack(commands, shafts->target(0), VK_IMAGE_ASPECT_COLOR_BIT, 8);
       offsets[3] = target.copyBack(commands, shafts->target(1), VK_IMAGE_ASPECT_COLOR_BIT, 8);
     }
-    return true;
+    return Status::Ok;
   });
   const size_t pixels = size_t{size.width} * size.height;
   out.light.width = size.width;

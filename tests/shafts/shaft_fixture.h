@@ -26,6 +26,12 @@ struct ShaftSetup {
   uint32_t samples = 0;
   bool hostDepth = true;  ///< The casters are drawn into the depth image too.
   bool shafts = true;     ///< Else aerial perspective alone.
+  uint32_t passes = 1;    ///< Drawn so often; the last is timed.
+};
+
+/// User CPU of each step.
+struct ShaftSeconds {
+  double depth = 0.0, slice = 0.0, sunMap = 0.0, shafts = 0.0, air = 0.0;
 };
 
 struct ShaftPicture {
@@ -33,6 +39,7 @@ struct ShaftPicture {
   std::vector<float> sums;    ///< Four a pixel (exact), or two (paper).
   std::vector<float> bounds;  ///< Two a pixel (paper).
   std::vector<float> depth;   ///< The host's.
+  ShaftSeconds seconds;
 };
 
 class ShaftTest : public SkyTest {
@@ -64,6 +71,10 @@ class ShaftTest : public SkyTest {
   struct Target;
   Casters casters();
   void drawAll(VkCommandBuffer commands);
+  Status recordDepth(VkCommandBuffer commands, const ShaftSetup& setup, const SkyDraw& draw,
+                     Target& target);
+  Status recordLight(VkCommandBuffer commands, const ShaftSetup& setup, const SkyDraw& draw,
+                     View* view, Target& target);
 
   std::vector<reference::test::Mesh> meshes_;
   std::vector<CasterBuffers> buffers_;

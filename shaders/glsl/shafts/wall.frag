@@ -18,7 +18,11 @@ layout(location = 0) out vec4 sums;  // light; shadows entered less those left
 
 void main() {
   vec3 at = alpenglowOnSunMap(position);
-  bool divides = alpenglowFirstDepth(at.xy + 1.5 * outward) > at.z;
+  // Silhouettes are jagged: of three texels outside, the one that sees farthest.
+  vec2 beside = at.xy + outward, along = vec2(-outward.y, outward.x);
+  float first = max(alpenglowFirstDepth(beside),
+                    max(alpenglowFirstDepth(beside + along), alpenglowFirstDepth(beside - along)));
+  bool divides = first > at.z;
   vec3 view;
   Ray ray = pixelRay(gl_FragCoord.xy, view);
   float t = kOrthographic ? dot(position, view) : length(position);
