@@ -24,7 +24,9 @@ void main() {
   vec3 n = normalize(normal);
   float facing = max(dot(n, frame.sun.xyz), 0.0);
 #ifdef WITH_SHAFTS
-  facing *= alpenglowSunlit(gl_FragCoord, position);
+  // A texel of the map above the slope, which would else lie in its own shadow here and there.
+  vec3 above = position + n / length(alpenglowShaft.mapU.xyz);
+  facing *= alpenglowSunlit(gl_FragCoord, above);
 #endif
   Spectrum albedo = texture(albedoMap, uv).rgb;
   color = vec4(albedo / kPi * surfaceIrradiance(up, altitude, n, facing) * frame.irradiance.rgb, 1.0);
