@@ -155,7 +155,8 @@ Status AirVolume::record(VkCommandBuffer commands, const Tables& tables, const S
                            nullptr);
   vk.CmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
                       &constants);
-  vk.CmdDispatch(commands, kExtent.width / 8, kExtent.height / 8, 1);
+  const auto columns = static_cast<uint32_t>(physics_f64::airGrid(view.slice).columns);
+  vk.CmdDispatch(commands, (columns + 7) / 8, kExtent.height / 8, 1);
   ++device_.counters().dispatches;
 
   for (engine::Image& image : images_) barriers.image(image, kSampled);

@@ -25,7 +25,10 @@ physics::Spectrum callEachFile(const physics::Medium& medium) {
       physics::pieceNode(piece, Real(0.5)) +
       physics::sliceCoordinate(view, physics::angleFromNadir(ray.mu, Real(0.5)), Real(0.5),
                                ray.hitsGround);
-  if (at[0] > Real(0)) return physics::reflectedRadiance(medium.groundAlbedo, depth, depth);
+  const physics::AirStretch air =
+      physics::airStretch(medium, physics::airView(medium, view, ray.h), ray);
+  if (at[0] > physics::airUnit(air, physics::airTexelDistance(air, 3)))
+    return physics::reflectedRadiance(medium.groundAlbedo, depth, depth);
   const Real u = physics::scatteringUnitMu(medium, ray.h, ray.mu, ray.hitsGround);
   return physics::toneMapFilmic(depth) * (u + physics::miePhase(medium.mieAsymmetry, ray.nu));
 }

@@ -26,6 +26,9 @@ struct AirAnswer {
 };
 static_assert(sizeof(AirAnswer) == 112);
 
+/// What the shader is specialized for: the last three answer in `single` alone, for timing.
+enum class AirAsk : uint32_t { All, Light, SingleAlone, Nothing };
+
 /// Push constants that the test shaders share: what a lookup needs of a draw.
 struct LookupConstants {
   float up[3], altitude;
@@ -45,13 +48,17 @@ class AirTest : public SkyTest {
   /// Looks into the volume as it was filled last.
   std::vector<AirAnswer> ask(const SkyDraw& draw, const std::vector<AirQuery>& queries,
                              Tables* with = nullptr);
+  /// User CPU seconds of a submit with `count` queries, or of filling the volume: the least of
+  /// some.
+  double askSeconds(const SkyDraw& draw, AirAsk what, const std::vector<AirQuery>& queries);
+  double fillSeconds(const SkyDraw& draw);
   static LookupConstants lookupConstants(const Parameters& parameters, const SkyDraw& draw);
-  /// The volume's images for a shader of this stage, as set ALPENGLOW_AIR_SET.
-  VkDescriptorSet volumeSet();
-  VkDescriptorSetLayout volumeLayout();
 
  private:
   void makeObjects();
+  bool recordAsk(VkCommandBuffer commands, const SkyDraw& draw, AirAsk what, size_t count,
+                 Tables* baked);
+  double leastSeconds(const std::function<bool(VkCommandBuffer)>& record);
 };
 
 }  // namespace alpenglow::testing

@@ -4,6 +4,7 @@
 // and a distance each.
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const int kWhat = 0;  // AirAsk of air_fixture.h
 
 #include "alpenglow/atmosphere.glsl"
 #include "alpenglow/air_volume.glsl"
@@ -34,6 +35,19 @@ void main() {
   float distance_ = ray.start + inside;
   AirView air = AirView(SliceView(azimuthHorizon.w, rest.x, rest.y), rest.z, rest.w, height);
   AirRay airRay = alpenglowAirRay(air, upAltitude.xyz, azimuthHorizon.xyz, ray, view);
+  if (kWhat == 1) {
+    AirLight light = alpenglowAirLight(airRay, distance_);
+    answers[i].single = vec4(light.single + light.multiple + exp(-light.depth), 0.0);
+    return;
+  }
+  if (kWhat == 2) {
+    answers[i].single = vec4(alpenglowAirSingle(airRay, distance_), 0.0);
+    return;
+  }
+  if (kWhat == 3) {
+    answers[i].single = queries[i] * distance_;
+    return;
+  }
   AirLight light = alpenglowAirLight(airRay, distance_);
   answers[i].single = vec4(light.single, alpenglowInside(ray, distance_));
   answers[i].multiple = vec4(light.multiple, 0.0);

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "tests/sky/air_fixture.h"
+#include "tests/sky/steps.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -128,6 +129,9 @@ class AirVolumeTest : public AirTest {
   }
 };
 
+// By day and under a low sun the goal is 0.3 % (p95) and 1 % (p99) of what a segment sends. In
+// twilight, and from space, where the terminator is in view and the thin air's segments are next to
+// dark, it is missed: there errors count against a thousandth of the brightest ray.
 TEST_F(AirVolumeTest, IsTheLightOfPathsAtAllDistances) {
   std::printf("%u bytes\n", static_cast<unsigned>(volume()->bytes()));
   std::printf("per cent, p95 p99 max: own segment (>= 100 m) | scene | single | transmittance\n");
@@ -143,8 +147,100 @@ TEST_F(AirVolumeTest, IsTheLightOfPathsAtAllDistances) {
         std::printf("%6.3f %6.3f %6.2f | ", percent(one, 0.95), percent(one, 0.99),
                     percent(one, 1.0));
       std::printf("%zu\n", e.own.size());
+      const bool space = place.altitude > 1e5;
+      std::vector<double>* const counted = space || sun < 0.0 ? &e.scene : &e.own;
+      EXPECT_LT(percent(counted, 0.95), space ? 1.0 : sun < 0.0 ? 0.6 : 0.3) << place.name << sun;
+      EXPECT_LT(percent(counted, 0.99), space ? 2.0 : sun < 0.0 ? 1.3 : 1.0) << place.name << sun;
+      EXPECT_LT(percent(&e.depth, 0.99), 5.0) << place.name << ", sun " << sun;
     }
   }
+}
+
+// What a stretch of a ray sends is the difference of two lookups; and the short one is the long
+// one's.
+TEST_F(AirVolumeTest, DifferencesAreThoseOfStretches) {
+  for (const Place& place : kPlaces) {
+    const SkyDraw draw = drawOf(place.altitude, 10.0);
+    fill(draw);
+    const double dip = horizonDip(preset("earth"), place.altitude);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    std::vector<AirQuery> queries;
+    for (int i = 0; i < 4000; ++i) {
+      const double e = -dip + radians(20.0) * (unit(random) - (place.altitude > 1e5 ? 1.0 : 0.5));
+      const double azimuth = 2.0 * kPi * unit(random), share = unit(random);
+      queries.push_back(query(std::max(e, -0.5 * kPi), azimuth, -share));
+      queries.push_back(
+          query(std::max(e, -0.5 * kPi), azimuth, -share * (0.5 + 0.5 * unit(random))));
+    }
+    const std::vector<AirAnswer> answers = ask(draw, queries);
+    std::vector<double> errors;
+    for (size_t i = 0; i < answers.size(); i += 2) {
+      const AirAnswer &far = answers[i], &near = answers[i + 1];
+      double error = 0.0;
+      for (int c = 0; c < 3; ++c) {
+        EXPECT_EQ(far.singleAlone[c], far.single[c]);
+        const double wanted = double(far.wantedSingle[c]) - double(near.wantedSingle[c]);
+        const double got = double(far.singleAlone[c]) - double(near.singleAlone[c]);
+        error =
+            std::max(error, std::abs(got - wanted) / std::max(double(far.wantedSingle[c]), 1e-9));
+      }
+      errors.push_back(error);
+    }
+    std::printf("%7s: differences, per cent of the longer one, p95 %.3f, p99 %.3f, max %.3f\n",
+                place.name, percent(&errors, 0.95), percent(&errors, 0.99), percent(&errors, 1.0));
+    EXPECT_LT(percent(&errors, 0.95), place.altitude > 1e5 ? 1.0 : 0.3) << place.name;
+    EXPECT_LT(percent(&errors, 0.99), place.altitude > 1e5 ? 2.5 : 1.0) << place.name;
+  }
+}
+
+/// Of the volume's light along a row of queries, relative to it.
+Steps lightSteps(const std::vector<AirAnswer>& answers) {
+  Steps worst;
+  for (size_t c = 0; c < 3; ++c)
+    worst.add(stepsOf(answers.size(), 1e-12, [&](size_t i) {
+      return double(answers[i].single[c]) + double(answers[i].multiple[c]);
+    }));
+  return worst;
+}
+
+TEST_F(AirVolumeTest, HasNoStepInDistanceNorAtTheHorizon) {
+  for (const Place& place : kPlaces) {
+    if (place.altitude > 1e5) continue;  // from there the horizon is beyond the air that counts
+    for (const double sun : {50.0, 3.0}) {
+      const SkyDraw draw = drawOf(place.altitude, sun);
+      fill(draw);
+      const double dip = horizonDip(preset("earth"), place.altitude);
+      const double reach = std::sqrt(2.0 * 6.36e6 * place.altitude);  // to the horizon
+      for (const double off : {-1.0, 0.02, 3.0, 40.0}) {
+        std::vector<AirQuery> queries;
+        for (int i = 0; i < 2000; ++i)
+          queries.push_back(query(-dip + radians(off), 1.0, 10.0 * std::pow(1e5, i / 2000.0)));
+        const Steps along = lightSteps(ask(draw, queries));
+        EXPECT_LT(along.jump, 1e-3) << place.name << ", sun " << sun << ", " << off << " degrees";
+      }
+      for (const double share : {0.01, 0.1, 0.6}) {
+        std::vector<AirQuery> queries;
+        for (int i = 0; i < 2000; ++i)
+          queries.push_back(query(-dip + radians(0.2) * (i / 1000.0 - 1.0), 0.3, share * reach));
+        const Steps across = lightSteps(ask(draw, queries));
+        EXPECT_LT(across.jump, 1e-3) << place.name << ", sun " << sun << ", at " << share * reach;
+      }
+    }
+  }
+}
+
+TEST_F(AirVolumeTest, ServesItsCameraSunAndTablesAlone) {
+  const SkyDraw draw = drawOf(1500.0, 10.0);
+  ResourceReport before, after;
+  resourceReport(context(), &before);
+  fill(draw);
+  resourceReport(context(), &after);
+  EXPECT_EQ(after.dispatches, before.dispatches + 1);
+  EXPECT_TRUE(volume()->serves(*tables(), draw));
+  EXPECT_FALSE(volume()->serves(*tables(), drawOf(1501.0, 10.0)));
+  EXPECT_FALSE(volume()->serves(*tables(), drawOf(1500.0, 10.5)));
+  EXPECT_FALSE(volume()->serves(*tables("earth-hazy"), draw));
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 // (physics/slice.glsl) and distance, made anew for each camera and sun. It answers for any distance, from
 // metres to the end of the ray, wherever the camera is.
 
-const int kAirColumns = 64;
+const int kAirColumns = 128;
 const int kAirRows = 96;
-const int kAirDistances = 40;
+const int kAirDistances = 56;
 
 // What the mappings need, the same for all rays of a camera: airView.
 struct AirView {
@@ -24,12 +24,12 @@ ALPENGLOW_FN AirView airView(IN(Medium) m, IN(SliceView) slice, Real altitude) {
   return view;
 }
 
+// From inside the horizon's sky side needs most rows, from space the ground.
 ALPENGLOW_FN SliceGrid airGrid(IN(SliceView) view) {
   SliceGrid grid;
+  grid.groundRows = sliceFromSpace(view) ? REAL(57.0) : REAL(32.0);
   grid.rows = Real(kAirRows);
-  grid.groundRows = sliceFromSpace(view) ? REAL(0.6) * grid.rows : grid.rows / REAL(3.0);
-  grid.groundRows = floor(grid.groundRows);
-  grid.columns = Real(kAirColumns);
+  grid.columns = sliceAzimuths(view);
   grid.width = Real(kAirColumns);
   return grid;
 }
