@@ -21,10 +21,6 @@ const char* nameOf(SceneShafts method) {
   return kNames[static_cast<size_t>(method)];
 }
 
-void saySwitchedOff(const std::string& why) {
-  std::fprintf(stderr, "The picture has no light shafts: %s\n", why.c_str());
-}
-
 }  // namespace
 
 CapabilityFlags ShaftChoice::needs() const {
@@ -56,17 +52,15 @@ ShaftChoice chooseShafts(const RenderArguments& arguments, const io::Scene& scen
     throw Failure(std::string("The light shafts ") + nameOf(choice.method) +
                   " need tables of the solver moments, but these are of standard.");
   }
-  saySwitchedOff("they need tables of the solver moments, and these are of standard.");
+  choice.whyOff = "they need tables of the solver moments, and these are of standard.";
   choice.method = SceneShafts::Off;
   return choice;
 }
 
 std::optional<ShaftsDesc> describeShafts(const ShaftChoice& choice, const Session& session) {
-  if (choice.method == SceneShafts::Off) return std::nullopt;
-  if (!session.unfulfilled().empty()) {
-    saySwitchedOff(session.unfulfilled());
-    return std::nullopt;
-  }
+  const std::string& why = choice.whyOff.empty() ? session.unfulfilled() : choice.whyOff;
+  if (!why.empty()) std::fprintf(stderr, "The picture has no light shafts: %s\n", why.c_str());
+  if (choice.method == SceneShafts::Off || !why.empty()) return std::nullopt;
   ShaftsDesc desc;
   desc.samples = choice.samples;
   desc.method = choice.method == SceneShafts::Paper   ? ShaftMethod::Paper

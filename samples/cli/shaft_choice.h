@@ -14,6 +14,7 @@ namespace alpenglow::cli {
 struct ShaftChoice {
   io::SceneShafts method = io::SceneShafts::Off;  ///< Auto: Exact where the device can.
   uint32_t samples = 0;
+  std::string whyOff;              ///< A sentence, where Auto became Off.
   CapabilityFlags needs() const;   ///< What the device must have.
   CapabilityFlags wishes() const;  ///< What it would be nice to have.
 };
