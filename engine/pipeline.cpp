@@ -143,8 +143,11 @@ struct FixedFunctions {
       VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
 
   explicit FixedFunctions(const GraphicsPipelineDesc& desc) {
-    assembly.topology = desc.adjacency ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST_WITH_ADJACENCY
-                                       : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    assembly.topology = desc.topology == Topology::TriangleStrip
+                            ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP
+                        : desc.topology == Topology::TrianglesWithAdjacency
+                            ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST_WITH_ADJACENCY
+                            : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     if (desc.vertices.stride > 0) {
       binding = {0, desc.vertices.stride, VK_VERTEX_INPUT_RATE_VERTEX};
       attribute = {0, 0, VK_FORMAT_R32G32B32_SFLOAT, desc.vertices.offset};

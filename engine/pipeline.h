@@ -54,6 +54,8 @@ struct ColorTarget {
 };
 inline constexpr uint32_t kMaxColorTargets = 2;
 
+enum class Topology : uint32_t { Triangles, TrianglesWithAdjacency, TriangleStrip };
+
 /// Positions of three floats, from a buffer that is bound at binding 0, at location 0.
 struct VertexInput {
   uint32_t stride = 0;  ///< Bytes; 0: no vertex input.
@@ -71,7 +73,7 @@ struct GraphicsPipelineDesc {
   const SpecConstant* constants = nullptr;  ///< The same list for every stage.
   uint32_t constantCount = 0;
   VertexInput vertices;
-  bool adjacency = false;                      ///< A list of triangles with adjacency.
+  Topology topology = Topology::Triangles;
   ColorTarget colors[kMaxColorTargets];        ///< Those before the first without a format.
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< UNDEFINED: no depth attachment.
   bool stencil = true;                         ///< A depthFormat with stencil is attached for both.

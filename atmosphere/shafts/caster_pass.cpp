@@ -3,17 +3,21 @@
 namespace alpenglow {
 namespace shafts {
 
-void drawCasters(const CasterPass& pass, VkPipeline pipeline, const VkRect2D& area,
-                 const Casters& casters) {
-  const engine::Dispatch& vk = pass.device->vk();
+void setArea(const engine::Device& device, VkCommandBuffer commands, const VkRect2D& area) {
   const VkViewport viewport = {static_cast<float>(area.offset.x),
                                static_cast<float>(area.offset.y),
                                static_cast<float>(area.extent.width),
                                static_cast<float>(area.extent.height),
                                0.0f,
                                1.0f};
-  vk.CmdSetViewport(pass.commands, 0, 1, &viewport);
-  vk.CmdSetScissor(pass.commands, 0, 1, &area);
+  device.vk().CmdSetViewport(commands, 0, 1, &viewport);
+  device.vk().CmdSetScissor(commands, 0, 1, &area);
+}
+
+void drawCasters(const CasterPass& pass, VkPipeline pipeline, const VkRect2D& area,
+                 const Casters& casters) {
+  const engine::Dispatch& vk = pass.device->vk();
+  setArea(*pass.device, pass.commands, area);
   vk.CmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
   const double centre[3] = {};
   placeCaster(&pass, centre, nullptr);

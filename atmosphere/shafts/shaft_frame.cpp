@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atmosphere/shafts/sun_map.h"
 #include "atmosphere/sky/air_volume.h"
 #include "atmosphere/sky/parts.h"
 #include "atmosphere/sky/projection.h"
@@ -129,8 +128,16 @@ ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,
 
   // From one side of the air to the other, past the ground.
   const double longest = 2.0 * std::sqrt((rt - rg) * (rt + rg)) + 4.0 * map.halfDepth;
-  const double wall[4] = {longest, double(desc.sunMapSize), double(kSunMapBlock), r};
-  std::transform(wall, wall + 4, frame.wall, [](double x) { return static_cast<float>(x); });
+  const double size[3] = {double(desc.sunMapSize), longest, r};
+  store(frame.map, size, 1.0, 0.0);
+  double corner[3];
+  for (int i = 0; i < 3; ++i) {
+    corner[i] =
+        map.sun[i] * map.halfDepth - map.u[i] * map.halfU - map.v[i] * map.halfV - fromCenter[i];
+  }
+  store(frame.cornerStep, corner, 1.0, map.halfU / half);
+  store(frame.rowStep, map.u, 1.0, map.halfV / half);
+  store(frame.columnStep, map.v, 1.0, 0.0);
   frame.pixels[0] = 2.0f / static_cast<float>(draw.viewport.extent.width);
   frame.pixels[1] = 2.0f / static_cast<float>(draw.viewport.extent.height);
   frame.pixels[2] = static_cast<float>(desc.method);

@@ -25,13 +25,16 @@ struct ShaftFrame {
   float mapU[4];
   float mapV[4];
   float mapDepth[4];
-  float wall[4];
+  float map[4];
+  float cornerStep[4];
+  float rowStep[4];
+  float columnStep[4];
   float pixels[4];
   float airSlice[4];
   float airSun[4];
   float airHeight[4];
 };
-static_assert(sizeof(ShaftFrame) == 272, "As std140 lays it out");
+static_assert(sizeof(ShaftFrame) == 320, "As std140 lays it out");
 
 /// Everything is computed in double and rounded once.
 ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,

@@ -1,11 +1,11 @@
 #include "atmosphere/shafts/shaft_pass.h"
 
 #include <alpenglow/shaders/shaft_caster.h>
+#include <alpenglow/shaders/shaft_surface.h>
+#include <alpenglow/shaders/shaft_surface_fragment.h>
+#include <alpenglow/shaders/shaft_surface_fragment_volume.h>
 #include <alpenglow/shaders/shaft_volume_fragment.h>
 #include <alpenglow/shaders/shaft_volume_geometry.h>
-#include <alpenglow/shaders/shaft_wall_fragment.h>
-#include <alpenglow/shaders/shaft_wall_fragment_volume.h>
-#include <alpenglow/shaders/shaft_wall_geometry.h>
 
 #include <algorithm>
 #include <limits>
@@ -23,15 +23,13 @@ constexpr ImageState kBlended = {
     VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
 
-constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_GEOMETRY_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
-/// AlpenglowShaftFrame; the map from the sun; sums and bounds; blocks of the map.
-constexpr VkDescriptorSetLayoutBinding kBindings[] = {
-    {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kBoth, nullptr},
-    {1, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, kBoth, nullptr},
-    {2, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
-    {3, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr},
-    {4, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_GEOMETRY_BIT, nullptr}};
-constexpr uint32_t kBindingCount = std::size(kBindings);
+/// AlpenglowShaftFrame; the map from the sun; sums and bounds. Fragments' alone where the device
+/// has no geometry shaders.
+constexpr VkShaderStageFlags kMapStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+constexpr VkDescriptorSetLayoutBinding sampled(uint32_t binding, VkShaderStageFlags stages) {
+  return {binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages, nullptr};
+}
+constexpr uint32_t kBindingCount = 4;
 
 /// Sums of light: floats where they can be blended.
 VkFormat sumFormat(const engine::Device& device) {
@@ -85,7 +83,7 @@ void Shafts::destroy(Shafts* shafts, const FrameInfo& frame) {
 }
 
 Status Shafts::make() {
-  Status status = mapped() ? map_.make(desc_, exact()) : Status::Ok;
+  Status status = mapped() ? map_.make(desc_) : Status::Ok;
   if (status == Status::Ok) status = makeTargets();
   if (status == Status::Ok) status = makeSet();
   if (status == Status::Ok && desc_.method != ShaftMethod::March) status = makePipelines();
@@ -119,10 +117,17 @@ Status Shafts::makeTargets() {
 }
 
 Status Shafts::makeSet() {
+  const VkShaderStageFlags geometry =
+      desc_.method == ShaftMethod::Paper ? VK_SHADER_STAGE_GEOMETRY_BIT : 0;
+  const VkDescriptorSetLayoutBinding bindings[kBindingCount] = {
+      {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kMapStages | geometry, nullptr},
+      sampled(1, kMapStages | geometry),
+      sampled(2, VK_SHADER_STAGE_FRAGMENT_BIT),
+      sampled(3, VK_SHADER_STAGE_FRAGMENT_BIT)};
   Status status =
-      engine::createSetLayout(device_, kBindings, kBindingCount, "Alpenglow shafts", &setLayout_);
+      engine::createSetLayout(device_, bindings, kBindingCount, "Alpenglow shafts", &setLayout_);
   if (status != Status::Ok) return status;
-  const engine::PoolPart part = {kBindings, kBindingCount, 1};
+  const engine::PoolPart part = {bindings, kBindingCount, 1};
   status = engine::createPool(device_, &part, 1, "Alpenglow shafts", &pool_);
   if (status != Status::Ok) return status;
   status = engine::allocateSets(device_, pool_, &setLayout_, 1, "Alpenglow shafts", &set_);
@@ -131,14 +136,12 @@ Status Shafts::makeSet() {
   const VkImageView map = mapped() ? map_.depth().view : targets_[0].view;
   const VkImageView sums = targetCount_ > 0 ? targets_[0].view : map;
   const VkImageView bounds = targetCount_ > 1 ? targets_[1].view : sums;
-  const VkImageView blocks = exact() ? map_.blocks().view : map;
   const VkSampler sampler = resources_.nearestSampler();
   engine::DescriptorWriter writer(set_);
   writer.uniformBuffer(0, frame_.handle)
       .sampledImage(1, map, sampler)
       .sampledImage(2, sums, sampler)
-      .sampledImage(3, bounds, sampler)
-      .sampledImage(4, blocks, sampler);
+      .sampledImage(3, bounds, sampler);
   return writer.flush(device_);
 }
 
@@ -157,20 +160,22 @@ Status Shafts::makePipeline(bool fromVolume, VkPipeline* out) {
   namespace s = alpenglow::shaders;
   const bool reversed = desc_.depth == DepthConvention::Reversed;
   engine::GraphicsPipelineDesc desc;
-  desc.vertex = {s::kShaftCaster, sizeof s::kShaftCaster, "caster.vert"};
+  desc.colors[0] = {targets_[0].desc.format, engine::Blend::Add};
   if (exact()) {
-    desc.geometry = {s::kShaftWallGeometry, sizeof s::kShaftWallGeometry, "wall.geom"};
+    desc.vertex = {s::kShaftSurface, sizeof s::kShaftSurface, "surface.vert"};
     desc.fragment =
-        fromVolume
-            ? engine::Shader{s::kShaftWallFragmentVolume, sizeof s::kShaftWallFragmentVolume,
-                             "wall.frag (volume)"}
-            : engine::Shader{s::kShaftWallFragment, sizeof s::kShaftWallFragment, "wall.frag"};
-    desc.colors[0] = {targets_[0].desc.format, engine::Blend::Add};
+        fromVolume ? engine::Shader{s::kShaftSurfaceFragmentVolume,
+                                    sizeof s::kShaftSurfaceFragmentVolume, "surface.frag (volume)"}
+                   : engine::Shader{s::kShaftSurfaceFragment, sizeof s::kShaftSurfaceFragment,
+                                    "surface.frag"};
+    desc.topology = engine::Topology::TriangleStrip;
   } else {
+    desc.vertex = {s::kShaftCaster, sizeof s::kShaftCaster, "caster.vert"};
     desc.geometry = {s::kShaftVolumeGeometry, sizeof s::kShaftVolumeGeometry, "volume.geom"};
     desc.fragment = {s::kShaftVolumeFragment, sizeof s::kShaftVolumeFragment, "volume.frag"};
-    desc.colors[0] = {targets_[0].desc.format, engine::Blend::Add};
     desc.colors[1] = {targets_[1].desc.format, engine::Blend::Max};
+    desc.vertices = {desc_.vertexStride, desc_.vertexOffset};
+    desc.topology = engine::Topology::TrianglesWithAdjacency;
   }
   const engine::SpecConstant constants[] = {
       engine::specBool(6, desc_.projection == Projection::Orthographic),
@@ -178,8 +183,6 @@ Status Shafts::makePipeline(bool fromVolume, VkPipeline* out) {
   desc.constants = constants;
   desc.constantCount = 2;
   desc.layout = layout_;
-  desc.vertices = {desc_.vertexStride, desc_.vertexOffset};
-  desc.adjacency = true;
   desc.depthFormat = desc_.sceneDepth.format;
   desc.stencil = false;
   desc.depthTest = true;
@@ -266,12 +269,20 @@ Status Shafts::drawShadows(VkCommandBuffer commands, const Tables& tables, const
   const bool lookUp = looksUp() && air != VK_NULL_HANDLE;
   vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, lookUp ? 3 : 2,
                            sets, 0, nullptr);
-  CasterPass pass;
-  pass.device = &device_;
-  pass.commands = commands;
-  pass.layout = layout_;
-  pass.eye = draw.camera.position_m;
-  shafts::drawCasters(pass, lookUp ? volumePipeline_ : pipeline_, draw.viewport, casters);
+  const VkPipeline pipeline = lookUp ? volumePipeline_ : pipeline_;
+  if (exact()) {
+    shafts::setArea(device_, commands, draw.viewport);
+    vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    vk.CmdDraw(commands, 2 * desc_.sunMapSize, desc_.sunMapSize - 1, 0, 0);
+    ++device_.counters().draws;
+  } else {
+    CasterPass pass;
+    pass.device = &device_;
+    pass.commands = commands;
+    pass.layout = layout_;
+    pass.eye = draw.camera.position_m;
+    shafts::drawCasters(pass, pipeline, draw.viewport, casters);
+  }
   vk.CmdEndRendering(commands);
   for (uint32_t i = 0; i < targetCount_; ++i) barriers.image(targets_[i], engine::kFragmentSampled);
   return barriers.record(device_, commands);

@@ -112,7 +112,7 @@ TEST_F(ShaftBench, Error) {
       }
     }
     std::printf("%s: %zu rays\n", v.name, wanted.size());
-    for (const uint32_t size : {1024u, 2048u}) {
+    for (const uint32_t size : {512u, 1024u, 2048u}) {
       for (int method = 0; method < 3; ++method) {
         if (method == 1 && size != 2048) continue;
         for (const uint32_t samples : {16u, 128u}) {
@@ -132,6 +132,18 @@ TEST_F(ShaftBench, Error) {
               worst = std::max(worst, 100.0 * std::abs(loss - w.loss[c]) / (total - w.loss[c]));
             }
             errors.values.push_back(worst);
+            if (method == 0 && size == 2048 && worst > 2.0 && std::getenv("DUMP")) {
+              const auto [o, view] = pixelRay(setup, d, w.x, w.y);
+              const auto shadow = reference::shadowIntervals(rays(), vector(o), vector(view),
+                                                             vector(vec(d.sun.direction)), 3e5);
+              const auto hit = rays().closest(vector(o), vector(view), 1e-3, reference::kEndless);
+              std::printf("  (%u,%u) err %.1f count %g hit %.0f shadows:", w.x, w.y, worst,
+                          p.sums[4 * (w.y * 256 + w.x) + 3], hit ? hit->t : -1.0);
+              for (const auto& i : shadow)
+                if (!hit || i.from < hit->t) std::printf(" %.1f-%.1f", i.from, i.to);
+              std::printf(" want %.5f got %.5f\n", w.loss[1],
+                          off.light.at(w.x, w.y)[1] - p.light.at(w.x, w.y)[1]);
+            }
           }
           std::printf("  %s map %u samples %u: median %.3f p90 %.3f p95 %.3f p98 %.2f p99 %.2f max %.1f\n",
                       method == 0 ? "exact" : method == 1 ? "paper" : "march", size, samples,

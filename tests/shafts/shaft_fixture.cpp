@@ -212,7 +212,7 @@ struct ShaftTest::Target {
     draw.vertex = {shaders::kTestHostDepth, sizeof shaders::kTestHostDepth, "host_depth"};
     draw.layout = layout;
     draw.vertices = {12, 0};
-    draw.adjacency = true;
+    draw.topology = Topology::TrianglesWithAdjacency;
     draw.depthFormat = setup.depthFormat;
     draw.depthTest = draw.depthWrite = true;
     draw.depthCompare = reversed ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_LESS;
@@ -348,6 +348,7 @@ ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
   shaftsDesc.projection = setup.projection;
   shaftsDesc.sunMapSize = setup.sunMapSize;
   shaftsDesc.samples = setup.samples;
+  shaftsDesc.adjacency = true;
   Shafts* shafts = nullptr;
   if (setup.shafts) {
     EXPECT_EQ(createShafts(context(), shaftsDesc, &shafts), Status::Ok) << message();

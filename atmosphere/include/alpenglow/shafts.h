@@ -8,12 +8,13 @@ namespace alpenglow {
 inline namespace v1 {
 
 enum class ShaftMethod : uint32_t {
-  Exact,  ///< Walls below the casters' silhouettes, drawn where a map from the sun says that they
-          ///< divide light from shadow; each adds or subtracts the light up to it. Any number of
-          ///< lit stretches along a ray. docs/shafts.md.
+  Exact,  ///< The surface between light and shadow, a relief over the map from the sun: where a ray
+          ///< passes it, the light of all that lies before is added or taken away. Any number of
+          ///< lit stretches, without samples along the ray; exact but for the map's texels. Single
+          ///< scattering loses its light, multiple is dimmed. Any casters. docs/shafts.md.
   Paper,  ///< Shadow volumes and one length a pixel, as Bruneton & Neyret 2008, section 5: closed
-          ///< casters, all orders of scattering lose their light.
-  March,  ///< Samples of the map from the sun along each ray.
+          ///< casters with adjacency, geometry shaders; all orders of scattering lose their light.
+  March,  ///< Samples of the map from the sun along each ray; else as Exact.
 };
 
 struct ShaftsDesc {
@@ -25,6 +26,8 @@ struct ShaftsDesc {
   uint32_t samples = 0;       ///< Of March, for each ray; 0: 32.
   uint32_t vertexStride = 0;  ///< Bytes from one vertex of a caster to the next; 0: 12.
   uint32_t vertexOffset = 0;  ///< Of its position, three floats.
+  bool adjacency = false;  ///< Casters are triangles with adjacency (alpenglow/mesh.h), else plain
+                           ///< triangles. Paper needs it.
 };
 
 /// A pass in which the host draws its casters. Pipeline, viewport and scissor are set.
@@ -36,8 +39,8 @@ struct CasterPass;
 void placeCaster(const CasterPass* pass, const double origin_m[3], const float rotation[9]);
 
 /// For each of its casters calls placeCaster, then binds its vertices (binding 0, with stride and
-/// offset of ShaftsDesc) and indices (triangles with adjacency: alpenglow/mesh.h) and draws. Called
-/// inside recordSunMap and recordShafts; binds no pipeline and no descriptor set.
+/// offset of ShaftsDesc) and indices and draws. Called inside recordSunMap and, with Paper,
+/// recordShafts; binds no pipeline and no descriptor set.
 using DrawCastersFn = void (*)(void* user, VkCommandBuffer commands, const CasterPass* pass);
 
 struct Casters {

@@ -4,10 +4,10 @@
 layout(constant_id = 8) const int kShaftMethod = 0;
 layout(constant_id = 9) const int kShaftSamples = 32;
 
-// Of single scattering alone: all that walls have found.
+// Of single scattering alone, from where the ray passes the surface between light and shadow.
 Spectrum exactLoss(vec2 fragCoord, Spectrum whole) {
   vec4 sums = texelFetch(alpenglowShaftSums, ivec2(fragCoord), 0);
-  float shadows = (alpenglowInShadow(alpenglowRayOrigin(fragCoord)) ? 1.0 : 0.0) + sums.a;
+  float shadows = (alpenglowBehindSurface(alpenglowRayOrigin(fragCoord)) ? 1.0 : 0.0) + sums.a;
   Spectrum lit = sums.rgb + (shadows > 0.5 ? SPECTRUM(0.0) : whole);
   return whole - clamp(lit, SPECTRUM(0.0), whole);
 }
@@ -18,7 +18,7 @@ Spectrum marchedLoss(vec2 fragCoord, AirRay air, vec3 view, float end) {
   vec3 from = alpenglowOnSunMap(origin);
   vec3 step_ = alpenglowOnSunMap(origin + view) - from;
   step_ += vec3(equal(step_, vec3(0.0))) * 1e-20;
-  vec2 size = vec2(alpenglowShaft.wall.y);
+  vec2 size = vec2(alpenglowShaft.map.x);
   vec2 a = -from.xy / step_.xy, b = (size - from.xy) / step_.xy;
   vec2 first = min(a, b), last = max(a, b);
   float begin = clamp(max(first.x, first.y), 0.0, end);

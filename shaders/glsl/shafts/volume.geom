@@ -95,7 +95,7 @@ void emitWall(vec3 p, vec3 q, vec3 opposite, vec3 neighbour, vec3 along) {
 void main() {
   vec3 a = corner[0], b = corner[2], c = corner[4];
   if (!(facing(a, b, c) < 0.0)) return;
-  float length_ = alpenglowShaft.wall.x;
+  float length_ = alpenglowShaft.map.y;
   vec3 along = -length_ * alpenglowShaft.sunRange.xyz;
   // Outside is towards the sun here, where the triangle's own back is.
   emitAt(a);

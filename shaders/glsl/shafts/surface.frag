@@ -1,0 +1,26 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// What the surface between light and shadow does to the rays through it: single scattering of all that lies
+// before it is lit if the ray enters shadow here, and unlit else (docs/shafts.md).
+
+#define ALPENGLOW_AIR_SET 2
+#include "alpenglow/atmosphere.glsl"
+#include "alpenglow/shafts.glsl"
+#include "shafts/pixel_ray.glsl"
+#include "sky/ray_light.glsl"
+#include "shafts/air_ray.glsl"
+
+layout(location = 0) in vec3 position;
+
+layout(location = 0) out vec4 sums;  // light; shadows entered less those left
+
+void main() {
+  vec3 view;
+  Ray ray = pixelRay(gl_FragCoord.xy, view);
+  float t = kOrthographic ? dot(position, view) : length(position);
+  // The ground's sphere is in no depth image.
+  bool reached = !ray.hitsGround || t < ray.start + ray.extent;
+  // The strips show their fronts to the shadow.
+  float sign_ = reached ? (gl_FrontFacing ? -1.0 : 1.0) : 0.0;
+  sums = vec4(sign_ * alpenglowAirSingle(airRayOf(ray, view), t), sign_);
+}
