@@ -152,7 +152,7 @@ TEST_F(Terrain, HasTablesOfTheStandardSolver) {
 
 TEST_F(Terrain, BalloonsAreBlended) {
   const auto balloon = [](const char* opacity) {
-    return R"(, "balloons": [{"latitude_deg": 10, "longitude_deg": 20.02, "altitude_m": 700,
+    return R"(, "balloons": [{"latitude_deg": 10, "longitude_deg": 20.02, "altitude_m": 2000,
                "radius_m": 250, "color": [0.9, 0.1, 0.1], "opacity": )" +
            std::string(opacity) + "}]";
   };
