@@ -24,8 +24,8 @@ void main() {
   vec3 n = normalize(normal);
   float facing = max(dot(n, frame.sun.xyz), 0.0);
 #ifdef WITH_SHAFTS
-  // A texel of the map above the slope, which would else lie in its own shadow here and there.
-  vec3 above = position + n / length(alpenglowShaft.mapU.xyz);
+  // Above the slope and nearer to the sun by texels of the map, or creases would lie in their own shadow.
+  vec3 above = position + (n + 2.0 * frame.sun.xyz) / length(alpenglowShaft.mapU.xyz);
   facing *= alpenglowSunlit(gl_FragCoord, above);
 #endif
   Spectrum albedo = texture(albedoMap, uv).rgb;
