@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "atmosphere/io/atmosphere_json.h"
+#include "atmosphere/io/scene_balloons.h"
 #include "atmosphere/io/scene_terrain.h"
 
 namespace alpenglow::io {
@@ -153,8 +154,8 @@ void readShafts(JsonErrors* errors, ObjectReader* reader, Scene* scene) {
 Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& folder) {
   ObjectReader reader(
       errors, value, "", "",
-      {"atmosphere", "sun", "camera", "ground", "terrain", "size", "exposure", "tone_map", "model",
-       "solver", "orders", "quality", "shafts", "shaft_samples", "effects"});
+      {"atmosphere", "sun", "camera", "ground", "terrain", "balloons", "size", "exposure",
+       "tone_map", "model", "solver", "orders", "quality", "shafts", "shaft_samples", "effects"});
   Scene scene;
   const Json& atmosphere = reader.required("atmosphere");
   const Json& sun = reader.required("sun");
@@ -173,6 +174,9 @@ Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& fo
   if (reader.given("terrain")) {
     scene.terrain = readTerrain(errors, reader.required("terrain"), folder, scene.camera,
                                 scene.atmosphere.groundAlbedo);
+  }
+  if (reader.given("balloons")) {
+    scene.balloons = readBalloons(errors, reader.required("balloons"));
   }
   readSize(errors, &reader, &scene);
   scene.exposure = readExposure(&reader);

@@ -156,6 +156,7 @@ Status View::makeSlice() {
                                                                     : "with another MieStorage");
   }
   desc_.skySlice = nullptr;  // Only their shape counts: they may be destroyed before the view.
+  if (desc_.projection == Projection::Orthographic) return Status::Ok;  // An observer a pixel.
   return sky::SkySlice::create(resources_, tables, &slice_);
 }
 
@@ -302,6 +303,7 @@ Status View::checkRecord(const Tables& tables, const SkyDraw& draw, const char* 
 Status View::recordSlice(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw) {
   const Status status = checkRecord(tables, draw, "recordSkySlice");
   if (status != Status::Ok) return status;
+  if (slice_ == nullptr && desc_.projection == Projection::Orthographic) return Status::Ok;
   if (slice_ == nullptr) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "recordSkySlice got a view without a slice, but needs one made with "

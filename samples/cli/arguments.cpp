@@ -169,6 +169,27 @@ void addSizeOption(CLI::App* command, std::string* size) {
       ->check(checkPictureSize);
 }
 
+void addShaftOptions(CLI::App* command, RenderArguments* arguments) {
+  command
+      ->add_option("--shafts", arguments->shafts,
+                   "Light shafts of a terrain: exact, the sum over all lit stretches of a ray; "
+                   "paper, one length of shadow a ray; march, samples along it; off; or auto, "
+                   "exact where there is terrain and the device can (default: the scene's)")
+      ->type_name("METHOD")
+      ->check(oneOf({"exact", "paper", "march", "off", "auto"}));
+  command
+      ->add_option("--shaft-samples", arguments->shaftSamples,
+                   "Samples along a ray, of march, 1 to " + std::to_string(io::kMaxShaftSamples) +
+                       " (default: the scene's)")
+      ->type_name("N")
+      ->check([](const std::string& text) {
+        const uint64_t samples = isWholeNumber(text) ? parseSamples(text) : 0;
+        if (samples >= 1 && samples <= io::kMaxShaftSamples) return std::string();
+        return "'" + text + "' is not a whole number from 1 to " +
+               std::to_string(io::kMaxShaftSamples);
+      });
+}
+
 void addMethodOptions(CLI::App* command, ProbeArguments* arguments) {
   command
       ->add_option("--method", arguments->method,

@@ -47,6 +47,8 @@ struct BakeArguments {
 struct RenderArguments {
   std::string scene;
   std::string size;
+  std::optional<std::string> shafts;
+  std::optional<std::string> shaftSamples;
   TableArguments tables;
   RunArguments run;
 };
@@ -66,6 +68,7 @@ void addTableOptions(CLI::App* command, const std::string& keepOrdersHelp,
 void addTableFileOption(CLI::App* command, TableArguments* arguments);
 void addRunOptions(CLI::App* command, const std::string& outputHelp, RunArguments* arguments);
 void addSizeOption(CLI::App* command, std::string* size);
+void addShaftOptions(CLI::App* command, RenderArguments* arguments);
 void addMethodOptions(CLI::App* command, ProbeArguments* arguments);
 
 /// Whole numbers of a text that an option's check has accepted.

@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "failure.h"
+#include "terrain/gpu.h"
 
 namespace alpenglow::cli {
 namespace {
@@ -48,6 +49,7 @@ void addRender(CLI::App* app, Arguments* arguments) {
                 "mapped picture",
                 &render->run);
   addSizeOption(command, &render->size);
+  addShaftOptions(command, render);
   addTableOptions(command, kKeepOrdersHelp, &render->tables);
   addTableFileOption(command, &render->tables);
   command->callback([render] { runRender(*render); });
@@ -134,6 +136,8 @@ int main(int argc, char** argv) {
   } catch (const alpenglow::cli::Failure& failure) {
     alpenglow::cli::say(failure.what());
     return failure.exitStatus();
+  } catch (const alpenglow::samples::Error& error) {
+    alpenglow::cli::say(error.what());
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "There is not enough memory for this.\n");
   } catch (const std::exception& problem) {

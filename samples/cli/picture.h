@@ -5,13 +5,14 @@
 #include <alpenglow/io/scene_file.h>
 
 #include "picture_target.h"
+#include "scenery.h"
 #include "tables.h"
 
 namespace alpenglow::cli {
 
 /// Draws into `target`, which has the scene's size: linear radiance for the atmosphere's solar
-/// irradiance. `albedo` may be null. Throws a Failure.
+/// irradiance. `albedo`, of the ground, and `scenery` may be null. Throws a Failure.
 io::LinearImage drawScene(Session* session, const io::Scene& scene, const io::AlbedoMap* albedo,
-                          const ReadyTables& ready, const PictureTarget& target);
+                          const ReadyTables& ready, const PictureTarget& target, Scenery* scenery);
 
 }  // namespace alpenglow::cli

@@ -1,6 +1,7 @@
 #include "picture_target.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "failure.h"
 
@@ -75,6 +76,29 @@ PictureTarget createPictureTarget(Session* session, uint32_t width, uint32_t hei
   } catch (const Failure& failure) {
     throw Failure(picture + failure.what());
   }
+}
+
+io::LinearImage readPicture(Session* session, const PictureTarget& target) {
+  const VkExtent2D size = target.image.extent();
+  const size_t pixels = size_t{size.width} * size.height;
+  session->run([&](VkCommandBuffer commands) {
+    VkBufferImageCopy copy = {};
+    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    copy.imageExtent = {size.width, size.height, 1};
+    session->function<PFN_vkCmdCopyImageToBuffer>("vkCmdCopyImageToBuffer")(
+        commands, target.image.image(), samples::kCopySource.layout, target.readback.buffer(), 1,
+        &copy);
+    session->gpu().barrier(
+        commands, samples::kCopyTarget,
+        {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT});
+    return "readback";
+  });
+  io::LinearImage image{size.width, size.height, std::vector<float>(pixels * 3)};
+  const float* rgba = static_cast<const float*>(target.readback.data());
+  for (size_t i = 0; i < pixels; ++i) {
+    std::memcpy(&image.pixels[i * 3], rgba + i * 4, 3 * sizeof(float));
+  }
+  return image;
 }
 
 }  // namespace alpenglow::cli

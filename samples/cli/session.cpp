@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <map>
 
 #include "failure.h"
 
@@ -21,20 +22,27 @@ void addSeconds(std::optional<double>* sum, double seconds) {
 
 }  // namespace
 
-Session::Session(const std::string& device, CapabilityFlags capabilities) {
+Session::Session(const std::string& device, CapabilityFlags capabilities, CapabilityFlags wishes) {
   headless::DeviceOptions options;
   options.select = device;
-  options.requirements = [capabilities](PFN_vkGetInstanceProcAddr getProcAddr, VkInstance instance,
-                                        VkPhysicalDevice physicalDevice, Requirements* out,
-                                        std::string* missing) {
-    return queryRequirements(getProcAddr, instance, physicalDevice, capabilities, out, keepError,
-                             missing);
+  std::map<VkPhysicalDevice, std::string> gaps;
+  options.requirements = [&](PFN_vkGetInstanceProcAddr getProcAddr, VkInstance instance,
+                             VkPhysicalDevice physicalDevice, Requirements* out,
+                             std::string* missing) {
+    const auto query = [&](CapabilityFlags flags, std::string* sentence) {
+      return queryRequirements(getProcAddr, instance, physicalDevice, flags, out, keepError,
+                               sentence);
+    };
+    std::string& gap = gaps[physicalDevice];
+    if (wishes != 0 && query(capabilities | wishes, &gap) == Status::Ok) return Status::Ok;
+    return query(capabilities, missing);
   };
   std::string error;
   device_ = headless::Device::create(options, &error);
   if (!device_) throw Failure(error);
   ContextDesc desc = device_->contextDesc();
-  desc.capabilities = capabilities;
+  unfulfilled_ = gaps[device_->physicalDevice()];
+  desc.capabilities = capabilities | (unfulfilled_.empty() ? wishes : CapabilityFlags{0});
   desc.diagnostic = keepError;
   desc.user = &lastError_;
   check(createContext(desc, &context_));
@@ -74,6 +82,17 @@ double Session::run(const std::function<std::string(VkCommandBuffer)>& record) {
   book(pass, before, timing);
   collect(context_, device_->frame().completed);
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+samples::Gpu Session::gpu() {
+  const auto runPass = [this](const char* pass,
+                              const std::function<void(VkCommandBuffer)>& record) {
+    run([&](VkCommandBuffer commands) {
+      record(commands);
+      return std::string(pass);
+    });
+  };
+  return {device_.get(), runPass, [this](Status status) { check(status); }};
 }
 
 void Session::book(const std::string& pass, const ResourceReport& before,

@@ -9,18 +9,24 @@
 #include <memory>
 #include <string>
 
+#include "terrain/gpu.h"
+
 namespace alpenglow::cli {
 
 class Session {
  public:
-  /// Throws a Failure when there is no suitable device.
-  Session(const std::string& device, CapabilityFlags capabilities);
+  /// Takes what of `wishes` the device has, too. Throws a Failure when there is no suitable device.
+  Session(const std::string& device, CapabilityFlags capabilities, CapabilityFlags wishes = 0);
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
   ~Session();
 
   headless::Device& device() { return *device_; }
   Context* context() { return context_; }
+  /// For what a sample's scene needs on this device; the session outlives it.
+  samples::Gpu gpu();
+  /// Why the device has none of the wishes; empty where it has them.
+  const std::string& unfulfilled() const { return unfulfilled_; }
 
   /// Throws a Failure with the library's own sentence unless the status is Ok.
   void check(Status status);
@@ -56,6 +62,7 @@ class Session {
   std::unique_ptr<headless::Device> device_;
   Context* context_ = nullptr;
   std::string lastError_;
+  std::string unfulfilled_;
   io::Report report_;
 };
 

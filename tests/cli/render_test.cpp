@@ -112,16 +112,6 @@ TEST_F(Render, FisheyesAreBlackOutside) {
   EXPECT_GT(image.pixels[(16 * 48 + 24) * 3 + 2], 0.0f);
 }
 
-TEST_F(Render, WhatIsNotDrawnYetIsRefused) {
-  const std::string start = R"({"atmosphere": "earth", "sun": {"elevation_deg": 30}, "camera": )";
-  const std::string terrain =
-      start + R"({}, "terrain": {"height_map": "a.png", "meters_per_pixel": 90}})";
-  expectRefused(renderOf(folder_.write("terrain.json", terrain), "a.exr"),
-                {"terrain", "a.png", "draws none"});
-  const std::string camera = start + R"({"projection": "orthographic", "height_m": 9000}})";
-  expectRefused(renderOf(folder_.write("above.json", camera), "a.exr"), {"orthographic"});
-}
-
 TEST_F(Render, TheAlbedoMapIsSeenFromSpace) {
   const std::string start = R"({"atmosphere": "earth", "sun": {"elevation_deg": 80},
       "camera": {"altitude_m": 2e7, "pitch_deg": -90, "fov_deg": 20}, "size": [24, 24])";

@@ -48,6 +48,8 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
     "terrain": { "height_map": "a.png", "meters_per_pixel": [3, 4.5], "meters_per_unit": 2,
                  "height_scale": 1, "base_m": 1, "fade_m": 0, "latitude_deg": 1, "longitude_deg": 2,
                  "heading_deg": 3, "albedo": [0, 0.5, 1] },
+    "balloons": [{ "latitude_deg": 1, "longitude_deg": 2, "altitude_m": 3, "radius_m": 4,
+                   "color": [0, 0.5, 1], "opacity": 0.5 }],
     "effects": { "light_shafts": "auto" } })");
   Parameters mars;
   ASSERT_EQ(findPreset("mars", &mars), Status::Ok);
@@ -114,6 +116,17 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
     Json without = good;
     without["terrain"].erase(field.key());
     compare(without);
+  }
+  const Json balloon = good["balloons"][0];
+  for (const auto& field : balloon.items()) {
+    Json without = good;
+    without["balloons"][0].erase(field.key());
+    compare(without);
+    for (const Json& value : values) {
+      Json changed = good;
+      changed["balloons"][0][field.key()] = value;
+      compare(changed);
+    }
   }
   for (const auto& field : good.items()) {
     Json without = good;

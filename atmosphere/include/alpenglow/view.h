@@ -110,10 +110,11 @@ struct SkyDraw {
 /// ViewDesc::sceneDepth and moments, its air volume: the same up to every distance. A
 /// recordSky of the same tables, camera position and sun direction that follows in recording order
 /// reads it; any other reads the tables. InvalidArgument without ViewDesc::skySlice, and for tables
-/// of another shape. With Solver::Standard nothing is recorded for a camera outside the atmosphere,
-/// and the picture is that of the tables; with Moments it is interpolated between the rays of the
-/// slice, 64 x 160 inside the atmosphere and 128 x 160 outside, and off by what
-/// docs/stability.md says. Clobbers: compute pipeline, sets 0 and 1, push constants.
+/// of another shape. Nothing is recorded for orthographic cameras, whose rays have an observer
+/// each, and, with Solver::Standard, for a camera outside the atmosphere; the picture is that of
+/// the tables then. With Moments it is interpolated between the rays of the slice, 64 x 160 inside
+/// the atmosphere and 128 x 160 outside, and off by what docs/stability.md says. Clobbers: compute
+/// pipeline, sets 0 and 1, push constants.
 Status recordSkySlice(View* view, VkCommandBuffer commands, const FrameInfo& frame,
                       const Tables* tables, const SkyDraw& draw);
 

@@ -34,6 +34,15 @@ Ray alpenglowRay(vec3 up, float altitude, vec3 view, vec3 sun) {
                  dot(view, sun));
 }
 
+// The vertical and the altitude `offset` metres from an observer whose are given: for points of a scene, and
+// for orthographic cameras, each pixel of which has an observer of its own. Below the ground it is altitude 0.
+void alpenglowMoveObserver(vec3 offset, inout vec3 up, inout float altitude) {
+  float d = length(offset);
+  vec3 there = up * (alpenglowMedium.bottomRadius + altitude) + offset;
+  altitude = altitudeAt(alpenglowMedium, altitude, dot(offset, up) / max(d, 1e-9), d);
+  up = normalize(there);
+}
+
 // Radiance scattered in the air along the whole ray, to the ground or to space. No sun disc.
 Spectrum alpenglowSkyRadiance(Ray ray) {
   Spectrum s = alpenglowLightOfRay(ray);

@@ -9,7 +9,7 @@ Ray pixelRay(vec2 fragCoord, out vec3 view) {
   vec3 up = alpenglowShaft.upAltitude.xyz;
   float altitude = alpenglowShaft.upAltitude.w;
   view = alpenglowShaft.forwardNear.xyz;
-  if (kOrthographic) moveObserver(across, up, altitude);
+  if (kOrthographic) alpenglowMoveObserver(across, up, altitude);
   else view = normalize(view + across);
   return alpenglowRay(up, altitude, view, alpenglowShaft.sunRange.xyz);
 }

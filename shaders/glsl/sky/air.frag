@@ -41,7 +41,7 @@ void main() {
   float altitude = upAltitude.w;
   float t;
   if (kOrthographic) {
-    moveObserver(across, up, altitude);
+    alpenglowMoveObserver(across, up, altitude);
     t = (depth - forwardA.w) / rightB.w;
   } else {
     vec3 direction = view + across;

@@ -63,7 +63,7 @@ vec3 viewDirection(out bool visible, inout vec3 up, inout float altitude) {
   }
   visible = true;
   if (kOrthographic) {
-    moveObserver(ndc.x * rightHalfAngle.xyz + ndc.y * downMapTexel.xyz, up, altitude);
+    alpenglowMoveObserver(ndc.x * rightHalfAngle.xyz + ndc.y * downMapTexel.xyz, up, altitude);
     return forwardPixel.xyz;
   }
   return normalize(forwardPixel.xyz + ndc.x * rightHalfAngle.xyz + ndc.y * downMapTexel.xyz);

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace alpenglow::io {
 
@@ -49,6 +50,17 @@ struct SceneTerrain {
   std::string albedoMap;   ///< An image over the height map, instead of `albedo`; empty: none.
 };
 
+/// A hot-air balloon of translucent cloth: half a sphere, drawn out below. It casts no shadow.
+/// Angles in radians.
+struct SceneBalloon {
+  double latitude = 0.0;
+  double longitude = 0.0;
+  double altitude_m = 0.0;  ///< Of the sphere's centre.
+  double radius_m = 10.0;
+  Spectrum color{{0.8, 0.8, 0.8}};  ///< Albedo of the cloth.
+  double opacity = 1.0;             ///< Share of what is behind that it hides.
+};
+
 /// How light shafts are drawn.
 enum class SceneShafts : uint32_t {
   Auto,   ///< The program's choice; none where there is no terrain.
@@ -64,6 +76,7 @@ struct Scene {
   SceneCamera camera;
   std::string albedoMap;  ///< A path that can be opened from here; empty: the uniform albedo.
   std::optional<SceneTerrain> terrain;
+  std::vector<SceneBalloon> balloons;
   SceneShafts shafts = SceneShafts::Auto;  ///< Off, too, where effects.light_shafts is.
   uint32_t shaftSamples = 32;              ///< Along a ray, of SceneShafts::March.
   uint32_t width = 1024;
@@ -79,6 +92,8 @@ struct Scene {
 inline constexpr uint32_t kMaxPictureSide = 16384;
 /// Most samples along a ray for light shafts.
 inline constexpr uint32_t kMaxShaftSamples = 4096;
+/// Most balloons of a scene.
+inline constexpr uint32_t kMaxBalloons = 1000;
 
 /// Reads and checks everything, the atmosphere included; paths in the file are relative to it.
 Result<Scene> readScene(const std::string& path);

@@ -1,0 +1,132 @@
+#include "scenery.h"
+
+#include "failure.h"
+
+namespace alpenglow::cli {
+namespace {
+
+samples::LandscapeDesc describeLandscape(Session* session, const io::Scene& scene,
+                                         const TableDesc& tables,
+                                         const std::optional<ShaftsDesc>& shafts) {
+  samples::LandscapeDesc desc;
+  desc.context = session->context();
+  desc.size = {scene.width, scene.height};
+  desc.colorFormat = kPictureFormat;
+  desc.solver = tables.solver;
+  desc.mie = tables.mie;
+  desc.shafts = shafts ? &*shafts : nullptr;
+  return desc;
+}
+
+}  // namespace
+
+void checkScenery(const io::Scene& scene) {
+  if (scene.camera.projection != Projection::Fisheye) return;
+  if (!scene.terrain && scene.balloons.empty()) return;
+  throw Failure(std::string("The scene has ") + (scene.terrain ? "a terrain" : "balloons") +
+                " and a fisheye camera, but triangles are drawn only in perspective and "
+                "orthographic pictures.");
+}
+
+CapabilityFlags sceneryNeeds(const io::Scene& scene) {
+  return scene.terrain ? kCapabilityAir : CapabilityFlags{0};
+}
+
+SceneryFiles readScenery(const io::Scene& scene) {
+  SceneryFiles files;
+  if (!scene.terrain) return files;
+  files.mesh = samples::loadTerrain(scene.atmosphere, *scene.terrain);
+  if (!scene.terrain->albedoMap.empty()) {
+    files.albedo = take(io::readAlbedoMap(scene.terrain->albedoMap));
+  }
+  return files;
+}
+
+Scenery::Scenery(Session* session, const io::Scene& scene, const SceneryFiles& files,
+                 const TableDesc& tables, const std::optional<ShaftsDesc>& shafts)
+    : session_(session),
+      gpu_(session->gpu()),
+      landscape_(&gpu_, scene, files.mesh ? &*files.mesh : nullptr,
+                 files.albedo ? &*files.albedo : nullptr,
+                 describeLandscape(session, scene, tables, shafts)) {}
+
+void Scenery::drawShafts(View* view, const Tables* tables, const SkyDraw& draw) {
+  const Casters casters = landscape_.casters();
+  session_->run([&](VkCommandBuffer commands) {
+    session_->check(recordSunMap(landscape_.shafts(), commands, session_->device().frame(),
+                                 draw.sun.direction, casters));
+    return "sun map";
+  });
+  session_->run([&](VkCommandBuffer commands) {
+    session_->check(recordShafts(landscape_.shafts(), view, commands, session_->device().frame(),
+                                 tables, draw, casters));
+    return "shafts";
+  });
+}
+
+void Scenery::drawInto(const headless::Image& target, const SkyDraw& draw, const char* pass,
+                       bool first, const std::function<void(VkCommandBuffer)>& record) {
+  VkRenderingAttachmentInfo color = {};
+  color.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+  color.imageView = target.view();
+  color.imageLayout = samples::kColorDrawn.layout;
+  color.loadOp = first ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
+  color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+  VkRenderingInfo rendering = {};
+  rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+  rendering.renderArea = draw.viewport;
+  rendering.layerCount = 1;
+  rendering.colorAttachmentCount = 1;
+  rendering.pColorAttachments = &color;
+  rendering.pDepthAttachment = landscape_.depthAttachment();
+  session_->run([&](VkCommandBuffer commands) {
+    gpu_.barrier(commands, target, first ? samples::kUndefined : samples::kColorDrawn,
+                 samples::kColorDrawn);
+    session_->function<PFN_vkCmdBeginRendering>("vkCmdBeginRendering")(commands, &rendering);
+    record(commands);
+    session_->function<PFN_vkCmdEndRendering>("vkCmdEndRendering")(commands);
+    return std::string(pass);
+  });
+}
+
+void Scenery::draw(View* view, const Tables* tables, SkyDraw draw, const headless::Image& target) {
+  draw.depth = landscape_.depthRange(draw.camera);
+  // An engine records all this into one command buffer; here each pass is run and timed alone.
+  session_->run([&](VkCommandBuffer commands) {
+    session_->check(recordSkySlice(view, commands, session_->device().frame(), tables, draw));
+    return "sky slice";
+  });
+  const bool terrain = landscape_.hasTerrain();
+  if (terrain) {
+    session_->run([&](VkCommandBuffer commands) {
+      landscape_.recordFrame(commands, draw);
+      landscape_.recordDepth(commands, draw);
+      return "terrain depth";
+    });
+    if (landscape_.shafts() != nullptr) drawShafts(view, tables, draw);
+    drawInto(target, draw, "terrain", true,
+             [&](VkCommandBuffer commands) { landscape_.recordTerrain(commands, tables, draw); });
+    drawInto(target, draw, "air", false, [&](VkCommandBuffer commands) {
+      session_->check(recordAir(view, commands, session_->device().frame(), tables, draw));
+    });
+  }
+  drawInto(target, draw, "sky", !terrain, [&](VkCommandBuffer commands) {
+    session_->check(recordSky(view, commands, session_->device().frame(), tables, draw));
+  });
+  if (landscape_.hasBalloons()) {
+    if (!terrain) {
+      session_->run([&](VkCommandBuffer commands) {
+        landscape_.recordFrame(commands, draw);
+        return "balloons";
+      });
+    }
+    drawInto(target, draw, "balloons", false,
+             [&](VkCommandBuffer commands) { landscape_.recordBalloons(commands, tables, draw); });
+  }
+  session_->run([&](VkCommandBuffer commands) {
+    gpu_.barrier(commands, target, samples::kColorDrawn, samples::kCopySource);
+    return "readback";
+  });
+}
+
+}  // namespace alpenglow::cli

@@ -1,0 +1,48 @@
+// What a scene has besides the sky: terrain, its light shafts, balloons.
+#pragma once
+
+#include <optional>
+
+#include "picture_target.h"
+#include "shaft_choice.h"
+#include "terrain/landscape.h"
+
+namespace alpenglow::cli {
+
+/// Throws a Failure for a scene that can't be drawn.
+void checkScenery(const io::Scene& scene);
+
+/// Capabilities without which the scene can't be drawn, those of shafts aside.
+CapabilityFlags sceneryNeeds(const io::Scene& scene);
+
+/// Read before there is a device. Throws.
+struct SceneryFiles {
+  std::optional<samples::TerrainMesh> mesh;
+  std::optional<io::AlbedoMap> albedo;
+};
+SceneryFiles readScenery(const io::Scene& scene);
+
+/// On the device, before the tables: no bake is lost to what doesn't fit. Destroyed before the
+/// session; the files outlive it.
+class Scenery {
+ public:
+  Scenery(Session* session, const io::Scene& scene, const SceneryFiles& files,
+          const TableDesc& tables, const std::optional<ShaftsDesc>& shafts);
+
+  void describe(ViewDesc* view) const { landscape_.describe(view); }
+
+  /// Draws everything, the sky too, a pass at a time, into a target in any layout; leaves it in
+  /// kCopySource.
+  void draw(View* view, const Tables* tables, SkyDraw draw, const headless::Image& target);
+
+ private:
+  void drawShafts(View* view, const Tables* tables, const SkyDraw& draw);
+  void drawInto(const headless::Image& target, const SkyDraw& draw, const char* pass, bool first,
+                const std::function<void(VkCommandBuffer)>& record);
+
+  Session* session_;
+  samples::Gpu gpu_;
+  samples::Landscape landscape_;
+};
+
+}  // namespace alpenglow::cli

@@ -1,0 +1,128 @@
+// Descriptor sets and pipelines of a landscape.
+#include <alpenglow/shaders/sample_balloon.h>
+#include <alpenglow/shaders/sample_balloon_shafts.h>
+#include <alpenglow/shaders/sample_balloon_standard.h>
+#include <alpenglow/shaders/sample_balloon_vertex.h>
+#include <alpenglow/shaders/sample_terrain.h>
+#include <alpenglow/shaders/sample_terrain_shafts.h>
+#include <alpenglow/shaders/sample_terrain_standard.h>
+#include <alpenglow/shaders/sample_terrain_vertex.h>
+
+#include "landscape.h"
+
+namespace alpenglow::samples {
+namespace {
+
+constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+constexpr VkDescriptorSetLayoutBinding kFrameBinding = {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1,
+                                                        kBoth, nullptr};
+constexpr VkDescriptorSetLayoutBinding kAlbedoBinding = {
+    0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
+/// The larger of what terrain and balloons push.
+constexpr VkPushConstantRange kPush = {kBoth, 0, 12 * sizeof(float)};
+constexpr VkDeviceSize kFrameBytes = 32 * sizeof(float);
+
+constexpr VkVertexInputAttributeDescription kAttributes[] = {
+    {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(TerrainVertex, position)},
+    {1, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(TerrainVertex, normal)},
+    {2, 0, VK_FORMAT_R32G32_SFLOAT, offsetof(TerrainVertex, uv)}};
+
+Owned<VkDescriptorPool> makePool(const Gpu& gpu) {
+  const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
+                                        {VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1}};
+  VkDescriptorPoolCreateInfo info = {};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+  info.maxSets = 2;
+  info.poolSizeCount = 2;
+  info.pPoolSizes = sizes;
+  VkDescriptorPool made = VK_NULL_HANDLE;
+  Gpu::check(gpu.function<PFN_vkCreateDescriptorPool>("vkCreateDescriptorPool")(
+                 gpu.device().device(), &info, nullptr, &made),
+             "vkCreateDescriptorPool");
+  return {gpu.device(), "vkDestroyDescriptorPool", made};
+}
+
+VkDescriptorSet allocateSet(const Gpu& gpu, VkDescriptorPool pool, VkDescriptorSetLayout layout) {
+  VkDescriptorSetAllocateInfo info = {};
+  info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+  info.descriptorPool = pool;
+  info.descriptorSetCount = 1;
+  info.pSetLayouts = &layout;
+  VkDescriptorSet set = VK_NULL_HANDLE;
+  Gpu::check(gpu.function<PFN_vkAllocateDescriptorSets>("vkAllocateDescriptorSets")(
+                 gpu.device().device(), &info, &set),
+             "vkAllocateDescriptorSets");
+  return set;
+}
+
+void write(const Gpu& gpu, VkDescriptorSet set, VkDescriptorType type,
+           const VkDescriptorBufferInfo* buffer, const VkDescriptorImageInfo* image) {
+  VkWriteDescriptorSet info = {};
+  info.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+  info.dstSet = set;
+  info.descriptorCount = 1;
+  info.descriptorType = type;
+  info.pBufferInfo = buffer;
+  info.pImageInfo = image;
+  gpu.function<PFN_vkUpdateDescriptorSets>("vkUpdateDescriptorSets")(gpu.device().device(), 1,
+                                                                     &info, 0, nullptr);
+}
+
+}  // namespace
+
+void Landscape::makeSets(Context* context) {
+  frame_ = gpu_->buffer(kFrameBytes,
+                        VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+  frameLayout_ = gpu_->setLayout({&kFrameBinding, 1});
+  albedoLayout_ = gpu_->setLayout({&kAlbedoBinding, 1});
+  pool_ = makePool(*gpu_);
+  frameSet_ = allocateSet(*gpu_, pool_.get(), frameLayout_.get());
+  const VkDescriptorBufferInfo buffer = {frame_.buffer(), 0, kFrameBytes};
+  write(*gpu_, frameSet_, kFrameBinding.descriptorType, &buffer, nullptr);
+  if (mesh_ != nullptr) {
+    albedoSet_ = allocateSet(*gpu_, pool_.get(), albedoLayout_.get());
+    const VkDescriptorImageInfo image = {sampler_.get(), albedo_.view(), kSampled.layout};
+    write(*gpu_, albedoSet_, kAlbedoBinding.descriptorType, nullptr, &image);
+  }
+  const VkDescriptorSetLayout sets[] = {
+      tableSetLayout(context), frameLayout_.get(), albedoLayout_.get(),
+      shafts_ != nullptr ? shaftSetLayout(shafts_) : VK_NULL_HANDLE};
+  layout_ = gpu_->pipelineLayout({sets, shafts_ != nullptr ? size_t{4} : size_t{3}}, kPush);
+}
+
+void Landscape::makePipelines(const LandscapeDesc& desc) {
+  namespace s = alpenglow::shaders;
+  const bool standard = desc.solver == Solver::Standard;
+  PipelineDesc pipeline;
+  pipeline.layout = layout_.get();
+  pipeline.depth = mesh_ != nullptr ? kDepthFormat : VK_FORMAT_UNDEFINED;
+  if (mesh_ != nullptr) {
+    pipeline.vertex = s::kSampleTerrainVertex;
+    pipeline.vertexStride = sizeof(TerrainVertex);
+    pipeline.attributes = kAttributes;
+    pipeline.writesDepth = true;
+    depthPipeline_ = gpu_->pipeline(pipeline);
+    pipeline.writesDepth = false;
+    pipeline.color = desc.colorFormat;
+    pipeline.fragment = standard             ? Code(s::kSampleTerrainStandard)
+                        : shafts_ != nullptr ? Code(s::kSampleTerrainShafts)
+                                             : Code(s::kSampleTerrain);
+    terrainPipeline_ = gpu_->pipeline(pipeline);
+  }
+  if (balloons_.empty()) return;
+  pipeline.vertex = s::kSampleBalloonVertex;
+  pipeline.vertexStride = 0;
+  pipeline.attributes = {};
+  pipeline.color = desc.colorFormat;
+  pipeline.blends = true;
+  pipeline.fragment = standard             ? Code(s::kSampleBalloonStandard)
+                      : shafts_ != nullptr ? Code(s::kSampleBalloonShafts)
+                                           : Code(s::kSampleBalloon);
+  const VkBool32 packed = desc.mie == MieStorage::Packed;
+  const VkSpecializationMapEntry entry = {0, 0, sizeof packed};
+  const VkSpecializationInfo constants = {1, &entry, sizeof packed, &packed};
+  if (standard) pipeline.fragmentConstants = &constants;
+  balloonPipeline_ = gpu_->pipeline(pipeline);
+}
+
+}  // namespace alpenglow::samples
