@@ -55,8 +55,22 @@ Vec groundOrigin(const Parameters& parameters) { return {parameters.bottomRadius
 
 void ShaftTest::SetUp() {
   SkyTest::SetUp();
+  useEarth();
+}
+
+void ShaftTest::useEarth() {
   parameters = preset("earth");
-  baked = tables("earth");
+  parameters.groundAlbedo = {};
+  baked = tables("earth, black ground", parameters);
+}
+
+void ShaftTest::useThinAir() {
+  parameters = preset("earth");
+  parameters.mie.present = parameters.absorption.present = false;
+  parameters.rayleigh.scattering_per_m = {{1e-9, 1e-9, 1e-9}};
+  parameters.rayleigh.scaleHeight_m = 1e8;  // the validator's greatest
+  parameters.groundAlbedo = {};
+  baked = tables("thin", parameters);
 }
 
 void ShaftTest::TearDown() {

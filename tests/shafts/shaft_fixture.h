@@ -52,6 +52,12 @@ class ShaftTest : public SkyTest {
   void clearCasters();
   /// All casters, in the planet's frame.
   const reference::MeshRays& rays();
+  const Box& bounds() const { return bounds_; }
+  Casters casters();
+  /// Over a black ground, so that what shadows take away is the air's. SetUp does it.
+  void useEarth();
+  /// Air of one density, so thin that light is proportional to the length of lit air.
+  void useThinAir();
   Parameters parameters;  ///< Of `baked`.
   Tables* baked = nullptr;
 
@@ -69,7 +75,6 @@ class ShaftTest : public SkyTest {
     uint32_t indexCount = 0;
   };
   struct Target;
-  Casters casters();
   void drawAll(VkCommandBuffer commands);
   Status recordDepth(VkCommandBuffer commands, const ShaftSetup& setup, const SkyDraw& draw,
                      Target& target);
