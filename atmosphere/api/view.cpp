@@ -32,7 +32,8 @@ Status checkShafts(const Context& context, const ViewDesc& desc) {
 sky::ShaftSet shaftSetOf(const Shafts* shafts) {
   if (shafts == nullptr) return {};
   const ShaftsDesc& desc = shafts->desc();
-  return {shafts->setLayout(), shafts->set(), static_cast<uint32_t>(desc.method), desc.samples};
+  return {shafts->setLayout(), shafts->set(), static_cast<uint32_t>(desc.method), desc.samples,
+          static_cast<float>(desc.multipleLoss)};
 }
 
 /// Ok, or a sentence when a view would draw with another frame's shadows.

@@ -1,4 +1,5 @@
 // What a host may ask of light shafts.
+#include <algorithm>
 #include <cmath>
 
 #include "atmosphere/shafts/shaft_pass.h"
@@ -8,6 +9,9 @@ namespace alpenglow::shafts {
 ShaftsDesc completed(const ShaftsDesc& desc) {
   ShaftsDesc full = desc;
   if (full.sunMapSize == 0) full.sunMapSize = 2048;
+  if (full.reliefSize == 0) full.reliefSize = std::min(1024u, full.sunMapSize);
+  if (full.multipleLoss == 0.0) full.multipleLoss = 0.7;
+  full.multipleLoss = std::max(full.multipleLoss, 0.0);
   if (full.samples == 0) full.samples = 32;
   if (full.vertexStride == 0) full.vertexStride = 12;
   return full;
@@ -59,6 +63,21 @@ Status checkShaftsDesc(const engine::Device& device, const ShaftsDesc& desc) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
                        "ShaftsDesc::sunMapSize is %u, but must be from 16 to %u texels.",
                        desc.sunMapSize, most);
+  }
+  if (desc.reliefSize < 2 || desc.reliefSize > desc.sunMapSize) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "ShaftsDesc::reliefSize is %u, but must be from 2 to sunMapSize, %u.",
+                       desc.reliefSize, desc.sunMapSize);
+  }
+  if (!(desc.multipleLoss <= 1.0)) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "ShaftsDesc::multipleLoss is %g, but must be at most 1.", desc.multipleLoss);
+  }
+  if (desc.method == ShaftMethod::Paper && !desc.adjacency) {
+    return device.fail(
+        Status::InvalidArgument, VK_SUCCESS,
+        "ShaftsDesc::adjacency is false with ShaftMethod::Paper, but silhouettes need "
+        "casters with adjacency.");
   }
   if (desc.samples > 4096) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,

@@ -129,7 +129,7 @@ ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,
   // From one side of the air to the other, past the ground.
   const double longest = 2.0 * std::sqrt((rt - rg) * (rt + rg)) + 4.0 * map.halfDepth;
   const double size[3] = {double(desc.sunMapSize), longest, r};
-  store(frame.map, size, 1.0, 0.0);
+  store(frame.map, size, 1.0, reliefStep(desc));
   double corner[3];
   for (int i = 0; i < 3; ++i) {
     corner[i] =
@@ -149,7 +149,7 @@ ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,
   store(frame.airSun, air.sunAzimuth, 1.0, air.view.startHeight);
   frame.airHeight[0] = static_cast<float>(air.view.height);
   // A texel's width along the beam, and the relief of a lit slope hides under the slope.
-  frame.airHeight[1] = static_cast<float>(std::max(map.halfU, map.halfV) / half);
+  frame.airHeight[1] = static_cast<float>(std::max(map.halfU, map.halfV) / half * reliefStep(desc));
   return frame;
 }
 

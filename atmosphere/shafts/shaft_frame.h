@@ -38,8 +38,15 @@ static_assert(sizeof(ShaftFrame) == 320, "As std140 lays it out");
 
 /// Cells on a side of a block: alpenglow/shafts.glsl.
 inline constexpr uint32_t kShaftBlock = 16;
-/// Blocks on a side of the map's relief.
-constexpr uint32_t blocksAcross(uint32_t texels) { return (texels - 2) / kShaftBlock + 1; }
+/// Texels from vertex to vertex of the relief.
+constexpr uint32_t reliefStep(const ShaftsDesc& desc) {
+  return (desc.sunMapSize + desc.reliefSize - 1) / desc.reliefSize;
+}
+/// Blocks on a side of it.
+constexpr uint32_t blocksAcross(const ShaftsDesc& desc) {
+  const uint32_t step = reliefStep(desc);
+  return ((desc.sunMapSize - 2 + step) / step - 1) / kShaftBlock + 1;
+}
 
 /// Everything is computed in double and rounded once.
 ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,

@@ -106,7 +106,7 @@ Status Shafts::makeTargets() {
                                VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                            "Alpenglow shaft frame", &frame_);
   if (status != Status::Ok) return status;
-  const uint32_t side = shafts::blocksAcross(desc_.sunMapSize);
+  const uint32_t side = shafts::blocksAcross(desc_);
   if (exact()) {
     status = engine::createBuffer(device_, kBlocksHead + VkDeviceSize{4} * side * side,
                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
@@ -269,7 +269,7 @@ Status Shafts::updateFrame(VkCommandBuffer commands, const shafts::ShaftFrame& f
 
 Status Shafts::cullBlocks(VkCommandBuffer commands) {
   const engine::Dispatch& vk = device_.vk();
-  const uint32_t side = shafts::blocksAcross(desc_.sunMapSize);
+  const uint32_t side = shafts::blocksAcross(desc_);
   const uint32_t strip = 2 * shafts::kShaftBlock + 4;
   const VkDrawIndirectCommand none = {strip * shafts::kShaftBlock, 0, 0, 0};
   vk.CmdUpdateBuffer(commands, blocks_.handle, 0, sizeof none, &none);

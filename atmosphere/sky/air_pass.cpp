@@ -51,9 +51,10 @@ Status View::makeAirPipeline(bool fromVolume, VkPipeline* out) {
   const engine::SpecConstant constants[] = {
       engine::specFloat(4, reversed ? 0.0f : 1.0f),
       engine::specBool(6, desc_.projection == Projection::Orthographic),
-      engine::specUint(8, shafts_.method), engine::specUint(9, shafts_.samples)};
+      engine::specUint(8, shafts_.method), engine::specUint(9, shafts_.samples),
+      engine::specFloat(10, shafts_.multipleLoss)};
   desc.constants = constants;
-  desc.constantCount = 4;
+  desc.constantCount = 5;
   desc.layout = layout_;
   desc.colors[0] = {desc_.colorFormat, engine::Blend::DualSource};
   desc.depthFormat = desc_.depthFormat;

@@ -267,9 +267,10 @@ Status View::makePipelines(bool slice, VkPipeline* pipelines) {
         engine::specBool(5, seen.air),
         engine::specBool(6, desc_.projection == Projection::Orthographic),
         engine::specUint(8, shafts_.method),
-        engine::specUint(9, shafts_.samples)};
+        engine::specUint(9, shafts_.samples),
+        engine::specFloat(10, shafts_.multipleLoss)};
     desc.constants = constants;
-    desc.constantCount = 9;
+    desc.constantCount = 10;
     const Status status =
         engine::createGraphicsPipeline(device_, desc, &pipelines[sky::variant(seen)]);
     if (status != Status::Ok) return status;

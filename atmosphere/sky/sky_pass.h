@@ -43,6 +43,7 @@ struct ShaftSet {
   VkDescriptorSet set = VK_NULL_HANDLE;
   uint32_t method = 0;  ///< ShaftMethod.
   uint32_t samples = 0;
+  float multipleLoss = 0.0f;
 };
 
 /// Fills the constants; everything is computed in double and rounded once.

@@ -46,7 +46,7 @@ void main() {
   float facing = toSun > 0.0 ? toSun : -0.4 * toSun;  // Cloth lets light through.
 #ifdef WITH_SHAFTS
   bool mapped = int(alpenglowShaft.pixels.z) != kShaftPaper;
-  if (mapped && alpenglowInShadow(position)) facing = 0.0;
+  if (mapped) facing *= alpenglowSunShare(position);
 #endif
   float seam = fract(0.5 * gore) < 0.5 ? 1.0 : 0.55;
   Spectrum cloth = seam * balloon.colorOpacity.rgb / kPi * surfaceIrradiance(up, altitude, n, facing);

@@ -66,9 +66,14 @@ void Landscape::uploadTerrain(const io::SceneTerrain& terrain, const io::AlbedoM
 }
 
 void Landscape::makeShafts(const LandscapeDesc& desc) {
-  adjacency_ = gpu_->buffer(mesh_->adjacency.size() * sizeof(uint32_t),
-                            VK_BUFFER_USAGE_INDEX_BUFFER_BIT, mesh_->adjacency.data());
   ShaftsDesc full = *desc.shafts;
+  full.adjacency = full.method == ShaftMethod::Paper;
+  if (full.adjacency) {
+    const std::vector<uint32_t> indices = withAdjacency(*mesh_);
+    adjacency_ = gpu_->buffer(indices.size() * sizeof(uint32_t), VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
+                              indices.data());
+    adjacencyCount_ = indices.size();
+  }
   full.sceneDepth = {depth_.view(), kDepthFormat, desc.size, kDepthRead.layout};
   full.depth = DepthConvention::Reversed;
   full.projection = projection_;
@@ -110,7 +115,10 @@ Casters Landscape::casters() {
   casters.draw = [](void* user, VkCommandBuffer commands, const CasterPass* pass) {
     const auto* self = static_cast<const Landscape*>(user);
     placeCaster(pass, self->mesh_->place.origin_m, nullptr);
-    self->drawTerrain(commands, self->adjacency_, self->mesh_->adjacency.size());
+    if (self->adjacencyCount_ > 0)
+      self->drawTerrain(commands, self->adjacency_, self->adjacencyCount_);
+    else
+      self->drawTerrain(commands, self->indices_, self->mesh_->indices.size());
   };
   return casters;
 }

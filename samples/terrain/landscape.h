@@ -85,7 +85,9 @@ class Landscape {
   const TerrainMesh* mesh_;
   headless::Image depth_, albedo_;
   VkRenderingAttachmentInfo depthAttachment_ = {};
-  headless::HostBuffer vertices_, indices_, adjacency_, frame_;
+  headless::HostBuffer vertices_, indices_, frame_;
+  headless::HostBuffer adjacency_;  ///< Only for the paper's shadow volumes.
+  size_t adjacencyCount_ = 0;
   Shafts* shafts_ = nullptr;
   Owned<VkSampler> sampler_;
   Owned<VkDescriptorSetLayout> frameLayout_, albedoLayout_;

@@ -24,9 +24,7 @@ void main() {
   vec3 n = normalize(normal);
   float facing = max(dot(n, frame.sun.xyz), 0.0);
 #ifdef WITH_SHAFTS
-  // Above the slope and nearer to the sun by texels of the map, or creases would lie in their own shadow.
-  vec3 above = position + (n + 2.0 * frame.sun.xyz) / length(alpenglowShaft.mapU.xyz);
-  facing *= alpenglowSunlit(gl_FragCoord, above);
+  facing *= alpenglowSunlit(gl_FragCoord, position, n);
 #endif
   Spectrum albedo = texture(albedoMap, uv).rgb;
   color = vec4(albedo / kPi * surfaceIrradiance(up, altitude, n, facing) * frame.irradiance.rgb, 1.0);

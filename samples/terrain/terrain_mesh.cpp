@@ -46,13 +46,23 @@ TerrainMesh loadTerrain(const Parameters& parameters, const io::SceneTerrain& te
   TerrainMesh mesh;
   mesh.vertices.resize(size.vertexCount);
   mesh.indices.resize(size.indexCount);
-  mesh.adjacency.resize(size_t{size.indexCount} * 2);
   check(buildTerrain(desc, mesh.vertices.data(), mesh.indices.data(), &mesh.place, keepSentence,
                      &sentence));
-  const MeshView view = {mesh.vertices[0].position, sizeof(TerrainVertex), size.vertexCount,
-                         mesh.indices.data(), size.indexCount};
-  check(buildAdjacency(view, mesh.adjacency.data(), nullptr, keepSentence, &sentence));
   return mesh;
+}
+
+std::vector<uint32_t> withAdjacency(const TerrainMesh& mesh) {
+  MeshView view;
+  view.positions = mesh.vertices[0].position;
+  view.positionStride = sizeof(TerrainVertex);
+  view.vertexCount = static_cast<uint32_t>(mesh.vertices.size());
+  view.indices = mesh.indices.data();
+  view.indexCount = static_cast<uint32_t>(mesh.indices.size());
+  std::vector<uint32_t> adjacency(2 * mesh.indices.size());
+  std::string sentence;
+  if (buildAdjacency(view, adjacency.data(), nullptr, keepSentence, &sentence) != Status::Ok)
+    throw Error("The terrain's neighbours can't be found: " + sentence);
+  return adjacency;
 }
 
 Reach reachOf(const Box& box, const double point[3], const double direction[3]) {

@@ -10,13 +10,15 @@ namespace alpenglow::samples {
 
 struct TerrainMesh {
   std::vector<TerrainVertex> vertices;
-  std::vector<uint32_t> indices;    ///< Plain triangles, for drawing.
-  std::vector<uint32_t> adjacency;  ///< The same with neighbours, for casting shadows.
+  std::vector<uint32_t> indices;  ///< Plain triangles.
   TerrainPlace place;
 };
 
 /// Reads the height map and bends it over the ground. Throws an Error.
 TerrainMesh loadTerrain(const Parameters& parameters, const io::SceneTerrain& terrain);
+
+/// Indices of its triangles with adjacency, for the paper's shadow volumes. Throws an Error.
+std::vector<uint32_t> withAdjacency(const TerrainMesh& mesh);
 
 /// Least and greatest distance along `direction`, a unit vector, between `point` and the box.
 struct Reach {

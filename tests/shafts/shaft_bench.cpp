@@ -1,5 +1,5 @@
-// What light shafts cost over the real terrain, and how far they are from exact shadows: each method,
-// each scene. `build/bin/shaft_bench`.
+// What light shafts cost over the real terrain, and how far they are from exact shadows: each
+// method, each scene. `build/bin/shaft_bench`.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -12,7 +12,6 @@ namespace alpenglow::testing {
 namespace {
 
 using reference::Vector;
-
 
 class ShaftBench : public ShaftTest {};
 
@@ -145,9 +144,13 @@ TEST_F(ShaftBench, Error) {
                           off.light.at(w.x, w.y)[1] - p.light.at(w.x, w.y)[1]);
             }
           }
-          std::printf("  %s map %u samples %u: median %.3f p90 %.3f p95 %.3f p98 %.2f p99 %.2f max %.1f\n",
-                      method == 0 ? "exact" : method == 1 ? "paper" : "march", size, samples,
-                      errors.at(0.5), errors.at(0.9), errors.at(0.95), errors.at(0.98), errors.at(0.99), errors.at(1.0));
+          std::printf(
+              "  %s map %u samples %u: median %.3f p90 %.3f p95 %.3f p98 %.2f p99 %.2f max %.1f\n",
+              method == 0   ? "exact"
+              : method == 1 ? "paper"
+                            : "march",
+              size, samples, errors.at(0.5), errors.at(0.9), errors.at(0.95), errors.at(0.98),
+              errors.at(0.99), errors.at(1.0));
         }
       }
     }

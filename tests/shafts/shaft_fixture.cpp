@@ -22,9 +22,9 @@ constexpr ImageState kColorDrawn = {
     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
 constexpr VkPipelineStageFlags2 kDepthStages =
     VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
-constexpr ImageState kDepthDrawn = {VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, kDepthStages,
-                                    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
-                                        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+constexpr ImageState kDepthDrawn = {
+    VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, kDepthStages,
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
 constexpr ImageState kDepthRead = {
     VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL,
     kDepthStages | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
@@ -110,11 +110,11 @@ void ShaftTest::addCaster(const reference::test::Mesh& mesh) {
                          &b.indices),
             Status::Ok);
   Buffer* both[] = {&b.vertices, &b.indices};
-  ASSERT_EQ(allocateAndBind(device, "caster",
-                            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
-                                VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
-                            nullptr, 0, both, 2, &b.block),
-            Status::Ok);
+  ASSERT_EQ(
+      allocateAndBind(device, "caster",
+                      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT,
+                      nullptr, 0, both, 2, &b.block),
+      Status::Ok);
   std::memcpy(b.vertices.mapped, positions.data(), positions.size() * 4);
   std::memcpy(b.indices.mapped, adjacency.data(), adjacency.size() * 4);
 
@@ -149,9 +149,8 @@ const reference::MeshRays& ShaftTest::rays() {
 
 SkyDraw ShaftTest::drawFrom(const Vec& local, double heading, double pitch, double fov,
                             VkExtent2D extent, double sunElevation, double sunAzimuth) {
-  Camera camera =
-      cameraFromGeodetic(parameters, 0.0, 0.0, 0.0, radians(heading), radians(pitch), 0.0,
-                         radians(fov));
+  Camera camera = cameraFromGeodetic(parameters, 0.0, 0.0, 0.0, radians(heading), radians(pitch),
+                                     0.0, radians(fov));
   const Vec origin = groundOrigin(parameters);
   for (size_t i = 0; i < 3; ++i) camera.position_m[i] = origin[i] + local[i];
   Vec sun;
@@ -171,8 +170,8 @@ std::pair<Vec, Vec> ShaftTest::pixelRay(const ShaftSetup& setup, const SkyDraw& 
   const Vec right = cross(vec(c.forward), vec(c.up));
   Vec origin = vec(c.position_m);
   for (size_t i = 0; i < 3; ++i) {
-    origin[i] += pixel * (x + 0.5 - 0.5 * width) * right[i] +
-                 pixel * (0.5 * height - y - 0.5) * c.up[i];
+    origin[i] +=
+        pixel * (x + 0.5 - 0.5 * width) * right[i] + pixel * (0.5 * height - y - 0.5) * c.up[i];
   }
   return {origin, vec(c.forward)};
 }
@@ -343,8 +342,8 @@ ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
   const FrameInfo none{};
 
   // A view of the depth alone, as a host has one beside that of its attachment.
-  VkImageViewCreateInfo viewInfo = structure<VkImageViewCreateInfo>(
-      VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
+  VkImageViewCreateInfo viewInfo =
+      structure<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
   viewInfo.image = target.depth.handle;
   viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
   viewInfo.format = setup.depthFormat;
@@ -363,6 +362,8 @@ ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
   shaftsDesc.sunMapSize = setup.sunMapSize;
   shaftsDesc.samples = setup.samples;
   shaftsDesc.adjacency = true;
+  shaftsDesc.reliefSize = setup.reliefSize;
+  shaftsDesc.multipleLoss = setup.multipleLoss;
   Shafts* shafts = nullptr;
   if (setup.shafts) {
     EXPECT_EQ(createShafts(context(), shaftsDesc, &shafts), Status::Ok) << message();
@@ -390,7 +391,8 @@ ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
     *seconds = timing.cpuSeconds;
   };
   for (uint32_t pass = 0; pass < setup.passes; ++pass) {
-    step(&out.seconds.depth, [&](VkCommandBuffer c) { return recordDepth(c, setup, draw, target); });
+    step(&out.seconds.depth,
+         [&](VkCommandBuffer c) { return recordDepth(c, setup, draw, target); });
     if (viewDesc.skySlice != nullptr) {
       step(&out.seconds.slice, [&](VkCommandBuffer c) {
         return recordSkySlice(view, c, device().frame(), baked, draw);

@@ -23,7 +23,9 @@ struct ShaftSetup {
   bool sliced = true;  ///< Light from an air volume, else integrated.
   VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
   uint32_t sunMapSize = 1024;
+  uint32_t reliefSize = 0;
   uint32_t samples = 0;
+  double multipleLoss = -1.0;
   bool hostDepth = true;  ///< The casters are drawn into the depth image too.
   bool shafts = true;     ///< Else aerial perspective alone.
   uint32_t passes = 1;    ///< Drawn so often; the last is timed.

@@ -22,8 +22,15 @@ struct ShaftsDesc {
   SceneDepth sceneDepth;  ///< Of the host's opaque scene; attached read-only by recordShafts.
   DepthConvention depth = DepthConvention::Standard;
   Projection projection = Projection::Perspective;  ///< Not a fisheye.
-  uint32_t sunMapSize = 0;    ///< Texels on a side of the map from the sun; 0: 2048.
-  uint32_t samples = 0;       ///< Of March, for each ray; 0: 32.
+  uint32_t sunMapSize = 0;  ///< Texels on a side of the map from the sun; 0: 2048.
+  /// Vertices along a side of the relief over it (Exact), at most sunMapSize; 0: 1024. What is
+  /// between them serves surfaces (alpenglowSunlit).
+  uint32_t reliefSize = 0;
+  uint32_t samples = 0;  ///< Of March, for each ray; 0: 32.
+  /// Share of multiple scattering that a ray loses when it loses all of its single scattering, in
+  /// (0, 1]; 0: 0.7, the nearest to path-traced mountains (docs/shafts.md); below 0: none. Not
+  /// Paper.
+  double multipleLoss = 0.0;
   uint32_t vertexStride = 0;  ///< Bytes from one vertex of a caster to the next; 0: 12.
   uint32_t vertexOffset = 0;  ///< Of its position, three floats.
   bool adjacency = false;  ///< Casters are triangles with adjacency (alpenglow/mesh.h), else plain

@@ -24,7 +24,8 @@ layout(set = ALPENGLOW_SHAFT_SET, binding = 0, std140) uniform AlpenglowShaftFra
   vec4 mapU;           // dot(xyz, position) + w: texels of the map from the sun,
   vec4 mapV;
   vec4 mapDepth;       // and depth in it
-  vec4 map;            // texels on a side; longest beam in the air, metres; the camera's radius
+  vec4 map;            // texels on a side; longest beam in the air, metres; the camera's radius; texels from
+                       // vertex to vertex of the surface between light and shadow
   vec4 cornerStep;     // the map's corner at depth 0, metres from the camera; w: texel along the rows
   vec4 rowStep;        // from texel to texel in a row: a unit vector; w: from row to row
   vec4 columnStep;     // from row to row: a unit vector
@@ -93,9 +94,21 @@ vec3 alpenglowOnBeam(vec2 at, float along) {
          along * alpenglowShaft.sunRange.xyz;
 }
 
-// A vertex of the surface between light and shadow: a little behind what the sun meets at a texel's middle, so
-// that what is lit hides it, or where its beam ends if it meets nothing.
-vec3 alpenglowShadowVertex(ivec2 texel) {
+// The texel of a vertex of the surface between light and shadow: every so many, and the last.
+ivec2 alpenglowShadowTexel(ivec2 vertex) {
+  return min(vertex * int(alpenglowShaft.map.w), ivec2(int(alpenglowShaft.map.x) - 1));
+}
+
+// Cells of that surface along a side.
+int alpenglowShadowCells() {
+  int step_ = int(alpenglowShaft.map.w);
+  return (int(alpenglowShaft.map.x) - 2 + step_) / step_;
+}
+
+// Such a vertex: a little behind what the sun meets at a texel's middle, so that what is lit hides it, or where
+// its beam ends if it meets nothing.
+vec3 alpenglowShadowVertex(ivec2 vertex) {
+  ivec2 texel = alpenglowShadowTexel(vertex);
   float depth = texelFetch(alpenglowSunMap, texel, 0).r;
   vec2 middle = vec2(texel) + 0.5;
   float along = depth < 1.0 ? depth * alpenglowShaft.sunRange.w
@@ -105,11 +118,13 @@ vec3 alpenglowShadowVertex(ivec2 texel) {
 
 // Whether a point lies behind that surface, of which each cell is two triangles, as surface.vert draws it.
 bool alpenglowBehindSurface(vec3 position) {
-  vec3 at = alpenglowOnSunMap(position);
-  vec2 cell = floor(at.xy - 0.5), f = at.xy - 0.5 - cell;
-  float last = alpenglowShaft.map.x - 2.0;
-  bool inside = min(cell.x, cell.y) >= 0.0 && max(cell.x, cell.y) <= last;
+  vec2 at = alpenglowOnSunMap(position).xy - 0.5;
+  vec2 cell = floor(at / alpenglowShaft.map.w);
+  float last = float(alpenglowShadowCells() - 1);
+  bool inside = min(at.x, at.y) >= 0.0 && max(at.x, at.y) <= alpenglowShaft.map.x - 1.0;
   ivec2 c = ivec2(clamp(cell, vec2(0.0), vec2(last)));
+  vec2 low = vec2(alpenglowShadowTexel(c)), high = vec2(alpenglowShadowTexel(c + 1));
+  vec2 f = (at - low) / max(high - low, vec2(1.0));
   // The strip's diagonal runs from (0, 1) to (1, 0).
   bool second = f.x + f.y > 1.0;
   vec3 across = alpenglowShadowVertex(c + ivec2(1, 0)), down = alpenglowShadowVertex(c + ivec2(0, 1));
@@ -138,12 +153,30 @@ vec3 alpenglowRayOrigin(vec2 fragCoord) {
   return alpenglowShaft.pixels.w > 0.5 ? across : vec3(0.0);
 }
 
-// Whether the surface seen in a pixel, `position`, sees the sun, before its own slope is asked.
-float alpenglowSunlit(vec4 fragCoord, vec3 position) {
-  float dn = texelFetch(alpenglowShaftSums, ivec2(fragCoord.xy), 0).x;
-  bool paper = int(alpenglowShaft.pixels.z) == kShaftPaper;
-  bool shadow = paper ? dn < -0.5 : alpenglowInShadow(position);
-  return shadow ? 0.0 : 1.0;
+// The share of the sun that the map says a point sees, over three texels either way: about as soft an edge as
+// the sun's disc gives a shadow of some kilometres.
+float alpenglowSunShare(vec3 position) {
+  vec3 at = alpenglowOnSunMap(position);
+  vec2 corner = floor(at.xy - 0.5);
+  vec2 f = at.xy - 0.5 - corner;
+  float share = 0.0;
+  for (int y = -1; y <= 2; ++y) {
+    for (int x = -1; x <= 2; ++x) {
+      vec2 weight = vec2(x < 0 ? 1.0 - f.x : x > 1 ? f.x : 1.0, y < 0 ? 1.0 - f.y : y > 1 ? f.y : 1.0);
+      bool lit = alpenglowFirstDepth(corner + vec2(x, y)) >= at.z;
+      share += lit ? weight.x * weight.y / 9.0 : 0.0;
+    }
+  }
+  return share;
+}
+
+// The share of the sun that the surface seen in a pixel gets, at `position`, before its own slope is asked.
+// Its point is lifted over the slope by texels of the map, or it would lie in its own shadow.
+float alpenglowSunlit(vec4 fragCoord, vec3 position, vec3 normal) {
+  if (int(alpenglowShaft.pixels.z) == kShaftPaper)
+    return texelFetch(alpenglowShaftSums, ivec2(fragCoord.xy), 0).x < -0.5 ? 0.0 : 1.0;
+  float texel = max(alpenglowShaft.cornerStep.w, alpenglowShaft.rowStep.w);
+  return alpenglowSunShare(position + texel * (normal + 2.0 * alpenglowShaft.sunRange.xyz));
 }
 
 #endif  // ALPENGLOW_SHAFTS

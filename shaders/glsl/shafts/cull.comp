@@ -14,10 +14,9 @@ bool blockReach(ivec2 first, out float least, out float greatest) {
   least = 1e30;
   greatest = 0.0;
   float empty = 0.0;
-  int last = int(alpenglowShaft.map.x) - 1;
   for (int y = 0; y <= kShaftBlock; ++y) {
     for (int x = 0; x <= kShaftBlock; ++x) {
-      float depth = texelFetch(alpenglowSunMap, min(first + ivec2(x, y), ivec2(last)), 0).r;
+      float depth = texelFetch(alpenglowSunMap, alpenglowShadowTexel(first + ivec2(x, y)), 0).r;
       bool met = depth < 1.0;
       least = met ? min(least, depth) : least;
       greatest = met ? max(greatest, depth) : greatest;
@@ -33,7 +32,7 @@ bool outsidePicture(ivec2 first, float least, float greatest) {
   vec4 low = vec4(1.0), high = vec4(1.0);  // products over the corners: 1 if all are outside
   float behind = 1.0;
   for (int i = 0; i < 8; ++i) {
-    vec2 at = vec2(first) + 0.5 + float(kShaftBlock) * vec2(i & 1, i >> 1 & 1);
+    vec2 at = vec2(alpenglowShadowTexel(first + kShaftBlock * ivec2(i & 1, i >> 1 & 1))) + 0.5;
     float depth = (i & 4) == 0 ? least : greatest;
     vec3 p = alpenglowOnBeam(at, depth * alpenglowShaft.sunRange.w + alpenglowShaft.airHeight.y);
     vec4 clip = alpenglowShaft.clipFromCamera * vec4(p, 1.0);
@@ -45,7 +44,7 @@ bool outsidePicture(ivec2 first, float least, float greatest) {
 }
 
 void main() {
-  int side = (int(alpenglowShaft.map.x) - 2) / kShaftBlock + 1;
+  int side = (alpenglowShadowCells() - 1) / kShaftBlock + 1;
   int index = int(gl_GlobalInvocationID.x);
   ivec2 first = ivec2(index % side, index / side) * kShaftBlock;
   float least, greatest;

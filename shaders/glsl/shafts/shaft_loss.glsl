@@ -3,6 +3,8 @@
 
 layout(constant_id = 8) const int kShaftMethod = 0;
 layout(constant_id = 9) const int kShaftSamples = 32;
+// What multiple scattering loses where single scattering loses all: docs/shafts.md.
+layout(constant_id = 10) const float kMultipleLoss = 0.7;
 
 // Of single scattering alone, from where the ray passes the surface between light and shadow.
 Spectrum exactLoss(vec2 fragCoord, Spectrum whole) {
@@ -54,7 +56,10 @@ Spectrum paperLoss(vec2 fragCoord, AirRay air, Spectrum whole, float end, float 
 // surface.
 Spectrum shaftLoss(vec2 fragCoord, AirRay air, vec3 view, float start, float end, AirLight light,
                    bool ground) {
-  if (kShaftMethod == kShaftExact) return exactLoss(fragCoord, light.single);
-  if (kShaftMethod == kShaftMarch) return marchedLoss(fragCoord, air, view, end);
-  return paperLoss(fragCoord, air, light.single + light.multiple, end, start, ground);
+  if (kShaftMethod == kShaftPaper)
+    return paperLoss(fragCoord, air, light.single + light.multiple, end, start, ground);
+  Spectrum single = kShaftMethod == kShaftExact ? exactLoss(fragCoord, light.single)
+                                                : marchedLoss(fragCoord, air, view, end);
+  Spectrum share = min(single / max(light.single, SPECTRUM(1e-30)), SPECTRUM(1.0));
+  return single + kMultipleLoss * share * light.multiple;
 }

@@ -9,12 +9,12 @@
 layout(location = 0) out vec3 position;  // metres from the camera
 
 void main() {
-  int side = (int(alpenglowShaft.map.x) - 2) / kShaftBlock + 1;
+  int side = (alpenglowShadowCells() - 1) / kShaftBlock + 1;
   int block = int(alpenglowShaftBlocks.blocks[gl_InstanceIndex]);
   const int kRow = 2 * kShaftBlock + 4;
   int row = gl_VertexIndex / kRow;
   int k = clamp(gl_VertexIndex % kRow - 1, 0, kRow - 3);
-  ivec2 texel = ivec2(block % side, block / side) * kShaftBlock + ivec2(k >> 1, row + (k & 1));
-  position = alpenglowShadowVertex(min(texel, ivec2(int(alpenglowShaft.map.x) - 1)));
+  ivec2 vertex = ivec2(block % side, block / side) * kShaftBlock + ivec2(k >> 1, row + (k & 1));
+  position = alpenglowShadowVertex(vertex);
   gl_Position = alpenglowShaft.clipFromCamera * vec4(position, 1.0);
 }

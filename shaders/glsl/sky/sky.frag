@@ -147,7 +147,8 @@ void main() {
     AirLight whole = alpenglowAirLight(air, end);
     light -= shaftLoss(gl_FragCoord.xy, air, view, ray.start, end, whole, ray.hitsGround);
     light = max(light, SPECTRUM(0.0));
-    sunlit = alpenglowSunlit(gl_FragCoord, alpenglowRayOrigin(gl_FragCoord.xy) + end * view);
+    vec3 at = alpenglowRayOrigin(gl_FragCoord.xy) + end * view;
+    sunlit = alpenglowSunlit(gl_FragCoord, at, upAltitude.xyz);
   }
 #endif
   if (kGround) light += groundTerm(ray, up, altitude, view, sunlit);
