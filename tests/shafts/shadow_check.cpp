@@ -140,6 +140,26 @@ ShadowBand ShadowCheckTest::band(const ShaftSetup& setup, const SkyDraw& draw, u
   return band;
 }
 
+std::optional<bool> ShadowCheckTest::surfaceInShadow(const ShadowBand& band, double slack) {
+  const auto hit = rays().closest(band.ray.position, band.ray.view, 1e-3, reference::kEndless);
+  if (!hit || band.atEdge) return std::nullopt;
+  const Vector n = glm::dot(hit->normal, band.ray.view) < 0.0 ? hit->normal : -hit->normal;
+  if (glm::dot(n, band.ray.sun) < 0.02) return std::nullopt;
+  const Vector a = glm::normalize(glm::cross(n, std::abs(n.x) < 0.9 ? Vector(1, 0, 0)
+                                                                    : Vector(0, 1, 0)));
+  const Vector b = glm::cross(n, a);
+  const Vector at = band.ray.position + hit->t * band.ray.view + 0.1 * slack * n;
+  int dark = 0;
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      const Vector p = at + slack * (double(i) * a + double(j) * b);
+      dark += rays().blocked(p, band.ray.sun, 0.0, reference::kEndless) ? 1 : 0;
+    }
+  }
+  if (dark != 0 && dark != 9) return std::nullopt;
+  return dark == 9;
+}
+
 std::vector<double> ShadowCheckTest::losses(ShaftSetup setup, const SkyDraw& d, ShaftPicture* with,
                                             ShaftPicture* without) {
   setup.shafts = true;

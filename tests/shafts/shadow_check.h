@@ -18,10 +18,12 @@ struct ShadowScene {
   double sunElevation = 40.0, sunAzimuth = 180.0;
 };
 
-/// The scenes that every method is asked about: scenes.cpp.
+/// The scenes that every method is asked about: shadow_scenes.cpp.
 std::vector<ShadowScene> shadowScenes();
 /// Closed, bumpy, overlapping; the same for the same seed.
 ShadowScene randomScene(uint32_t seed);
+/// Hills 30 km wide, closed below, seen from close above them.
+ShadowScene hillScene(double sunAzimuth);
 
 /// A ray's shadows, three times: none counts that isn't there for all neighbours, as they are, and
 /// all that any neighbour has.
@@ -45,6 +47,9 @@ class ShadowCheckTest : public ShaftTest {
   /// Shadows displaced by up to `slack` metres about a pixel's ray.
   ShadowBand band(const ShaftSetup& setup, const SkyDraw& draw, uint32_t x, uint32_t y,
                   double slack);
+  /// Whether the surface at the end of a ray is in another's shadow: nothing where it faces away
+  /// from the sun, or within `slack` metres of the shadow's edge.
+  std::optional<bool> surfaceInShadow(const ShadowBand& band, double slack);
   /// Light that shadows keep from each pixel, channel 1.
   std::vector<double> losses(ShaftSetup setup, const SkyDraw& draw, ShaftPicture* with,
                              ShaftPicture* without);

@@ -1,4 +1,5 @@
 // Casters with known shadows, and where the sun and the camera make them hard.
+#include <cmath>
 #include <random>
 
 #include "tests/shafts/shadow_check.h"
@@ -67,6 +68,43 @@ ShadowScene randomScene(uint32_t seed) {
                                                500 * any(random))));
   }
   return scene;
+}
+
+ShadowScene hillScene(double sunAzimuth) {
+  constexpr uint32_t kSide = 64;
+  constexpr double kWidth = 30000.0;
+  const auto heightAt = [](double east, double north) {
+    const double ridges = std::abs(std::sin(east / 1700.0 + 0.7 * std::sin(north / 2300.0)));
+    return 350.0 + 500.0 * ridges * (1.0 + 0.4 * std::sin(north / 900.0));
+  };
+  Mesh mesh;
+  for (const bool top : {true, false}) {
+    for (uint32_t j = 0; j < kSide; ++j) {
+      for (uint32_t i = 0; i < kSide; ++i) {
+        const double east = kWidth * (i / (kSide - 1.0) - 0.5);
+        const double north = kWidth * (j / (kSide - 1.0) - 0.5);
+        addCorner(mesh, Vector(top ? heightAt(east, north) : -100.0, east, north));
+      }
+    }
+  }
+  const auto quad = [&](uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
+    mesh.indices.insert(mesh.indices.end(), {a, b, c, a, c, d});
+  };
+  constexpr uint32_t kBottom = kSide * kSide, kLast = kSide - 1;
+  for (uint32_t j = 0; j < kLast; ++j) {
+    for (uint32_t i = 0; i < kLast; ++i) {
+      const uint32_t a = j * kSide + i, b = a + 1, c = a + kSide + 1, d = a + kSide;
+      quad(a, b, c, d);
+      quad(kBottom + a, kBottom + d, kBottom + c, kBottom + b);
+    }
+    const uint32_t s = j, n = kLast * kSide + j, w = j * kSide, e = j * kSide + kLast;
+    quad(s, kBottom + s, kBottom + s + 1, s + 1);
+    quad(n + 1, kBottom + n + 1, kBottom + n, n);
+    quad(w + kSide, kBottom + w + kSide, kBottom + w, w);
+    quad(e, kBottom + e, kBottom + e + kSide, e + kSide);
+  }
+  // Above a ridge, so that the sun reaches the camera.
+  return {"hills", {mesh}, {heightAt(2600, 0) + 250.0, 2600, 0}, 80, -4, 60, 8, sunAzimuth};
 }
 
 }  // namespace alpenglow::testing
