@@ -51,8 +51,7 @@ void ExactShaftsTest::expectLengths(const ShadowScene& scene) {
       const ShadowBand b = band(setup, d, x, y, kTexels * texel_m);
       if (b.atEdge) continue;
       const double nu = glm::dot(b.ray.view, b.ray.sun);
-      const double lightOfMetre =
-          1e-9 * 3.0 / (16.0 * kPi) * (1.0 + nu * nu) * d.sun.irradiance[1];
+      const double lightOfMetre = 1e-9 * 3.0 / (16.0 * kPi) * (1.0 + nu * nu) * d.sun.irradiance[1];
       const double got = loss[size_t{y} * kExtent.width + x] / lightOfMetre;
       const double want = lengthOf(b.middle);
       // Floats of the whole ray's light, whose density falls by a thousandth on the way up.
@@ -65,16 +64,17 @@ void ExactShaftsTest::expectLengths(const ShadowScene& scene) {
       worst = std::max(worst, excess);
       if (excess <= rounding) continue;
       if (++wrong < 6)
-        ADD_FAILURE() << "pixel " << x << ", " << y << ": " << got << " m of shadow of "
-                      << b.length << " m, but expected " << lengthOf(b.least) << " to "
-                      << lengthOf(b.most) << " (" << want << ")";
+        ADD_FAILURE() << "pixel " << x << ", " << y << ": " << got << " m of shadow of " << b.length
+                      << " m, but expected " << lengthOf(b.least) << " to " << lengthOf(b.most)
+                      << " (" << want << ")";
     }
   }
   EXPECT_EQ(wrong, 0);
   EXPECT_GT(shadowed, 6);
-  std::printf("%-26s %4d of %4d pixels shadowed, texel %.2f m, mean error %.3f %%, worst beyond "
-              "the band %.2f m, wrong %d\n",
-              scene.name, shadowed, asked, texel_m, 100.0 * sum / whole, worst, wrong);
+  std::printf(
+      "%-26s %4d of %4d pixels shadowed, texel %.2f m, mean error %.3f %%, worst beyond "
+      "the band %.2f m, wrong %d\n",
+      scene.name, shadowed, asked, texel_m, 100.0 * sum / whole, worst, wrong);
 }
 
 TEST_F(ExactShaftsTest, ShadowsAreAsLongAsTheReferenceSays) {

@@ -107,8 +107,7 @@ TEST_F(PaperShaftsTest, OneConvexCasterGivesTheLengthOfItsShadow) {
         const Vector sun(d.sun.direction[0], d.sun.direction[1], d.sun.direction[2]);
         // Volumes begin behind the caster, its shadow before: ask beside it.
         if (rays().blocked(position, view, 0.0, reference::kEndless)) continue;
-        const auto shadow =
-            reference::shadowIntervals(rays(), position, view, sun, 1e6);
+        const auto shadow = reference::shadowIntervals(rays(), position, view, sun, 1e6);
         const double want = lengthOf(shadow);
         const double far_ = shadow.empty() ? 0.0 : shadow.back().to;
         // Rays nearly along the beam leave its side at no one place, in floats.
@@ -149,17 +148,16 @@ TEST_F(PaperShaftsTest, GroundKnowsWhereItsShadowBegins) {
       for (uint32_t x = 0; x < kExtent.width; ++x) {
         const ShadowBand b = band(setup, d, x, y, 1.0);
         // Next to the shadow's edge on the ground, and on the caster itself, it is either.
-        const bool onGround =
-            b.onMesh && std::abs((b.ray.position + b.length * b.ray.view).x -
-                                 parameters.bottomRadius_m - 20.0) < 0.1;
+        const bool onGround = b.onMesh && std::abs((b.ray.position + b.length * b.ray.view).x -
+                                                   parameters.bottomRadius_m - 20.0) < 0.1;
         if (!onGround || b.atEdge || b.length > 8000.0) continue;
         const std::optional<bool> shadow = surfaceInShadow(b, 2.0);
         if (!shadow) continue;
         const bool inShadow = *shadow;
         const double near_ = startsInShadow(d) ? d.depth.near_m : 0.0;
-        const double want =
-            inShadow ? -std::max(b.middle.empty() ? 0.0 : b.middle.back().from, near_)
-                     : lengthOf(b.middle) - near_;
+        const double want = inShadow
+                                ? -std::max(b.middle.empty() ? 0.0 : b.middle.back().from, near_)
+                                : lengthOf(b.middle) - near_;
         const float* s = &picture.sums[2 * (size_t{y} * kExtent.width + x)];
         (inShadow ? dark : lit) += 1;
         const bool good = s[0] == (inShadow ? -1.0f : 0.0f) &&

@@ -59,8 +59,7 @@ Intervals lessDark(const Intervals& shadows, const RayInterval& dark) {
   if (!(dark.from < dark.to)) return shadows;
   Intervals result;
   for (const RayInterval& s : shadows) {
-    if (s.from < std::min(s.to, dark.from))
-      result.push_back({s.from, std::min(s.to, dark.from)});
+    if (s.from < std::min(s.to, dark.from)) result.push_back({s.from, std::min(s.to, dark.from)});
     if (std::max(s.from, dark.to) < s.to) result.push_back({std::max(s.from, dark.to), s.to});
   }
   return result;
@@ -111,16 +110,16 @@ ShadowBand ShadowCheckTest::band(const ShaftSetup& setup, const SkyDraw& draw, u
   band.length = airLength(parameters, band.ray.position, band.ray.view);
   band.onMesh = hit && hit->t < band.length;
   if (band.onMesh) band.length = hit->t;
-  for (const auto& [dx, dy] : {std::pair(0.02, 0.0), std::pair(-0.02, 0.0), std::pair(0.0, 0.02),
-                               std::pair(0.0, -0.02)}) {
+  for (const auto& [dx, dy] :
+       {std::pair(0.02, 0.0), std::pair(-0.02, 0.0), std::pair(0.0, 0.02), std::pair(0.0, -0.02)}) {
     const auto [p, w] = rayAt(x + dx, y + dy);
     const auto other = rays().closest(vector(p), vector(w), 1e-3, reference::kEndless);
     band.atEdge = band.atEdge || bool(other) != bool(hit) ||
                   (hit && std::abs(other->t - hit->t) > 0.02 * hit->t);
   }
   const Vector& sun = band.ray.sun;
-  const Vector u = glm::normalize(glm::cross(
-      std::abs(sun.x) < 0.9 ? Vector(1, 0, 0) : Vector(0, 1, 0), sun));
+  const Vector u =
+      glm::normalize(glm::cross(std::abs(sun.x) < 0.9 ? Vector(1, 0, 0) : Vector(0, 1, 0), sun));
   const Vector w = glm::cross(sun, u);
   const auto shadowsAt = [&](const Vector& offset) {
     return reference::shadowIntervals(rays(), band.ray.position + offset, band.ray.view, sun,
@@ -145,8 +144,8 @@ std::optional<bool> ShadowCheckTest::surfaceInShadow(const ShadowBand& band, dou
   if (!hit || band.atEdge) return std::nullopt;
   const Vector n = glm::dot(hit->normal, band.ray.view) < 0.0 ? hit->normal : -hit->normal;
   if (glm::dot(n, band.ray.sun) < 0.02) return std::nullopt;
-  const Vector a = glm::normalize(glm::cross(n, std::abs(n.x) < 0.9 ? Vector(1, 0, 0)
-                                                                    : Vector(0, 1, 0)));
+  const Vector a =
+      glm::normalize(glm::cross(n, std::abs(n.x) < 0.9 ? Vector(1, 0, 0) : Vector(0, 1, 0)));
   const Vector b = glm::cross(n, a);
   const Vector at = band.ray.position + hit->t * band.ray.view + 0.1 * slack * n;
   int dark = 0;

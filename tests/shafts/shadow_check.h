@@ -29,9 +29,9 @@ ShadowScene hillScene(double sunAzimuth);
 /// all that any neighbour has.
 struct ShadowBand {
   reference::SceneRay ray;
-  double length = 0.0;   ///< Metres to what ends the ray.
-  bool onMesh = false;   ///< Else ground or space.
-  bool atEdge = false;   ///< Next to an edge of what the camera sees.
+  double length = 0.0;  ///< Metres to what ends the ray.
+  bool onMesh = false;  ///< Else ground or space.
+  bool atEdge = false;  ///< Next to an edge of what the camera sees.
   std::vector<reference::RayInterval> least, middle, most;
 };
 double lengthOf(const std::vector<reference::RayInterval>& intervals);

@@ -32,15 +32,31 @@ std::vector<ShadowScene> shadowScenes() {
   const Mesh high = box(Vector(5100, 2500, -300), Vector(5500, 2900, 300));
   std::vector<ShadowScene> s;
   s.push_back({"box", {block}, {50, 0, 0}, 90, 15, 60, 40, 200});
-  s.push_back({"sphere", {moved(reference::test::icosphere(300, 3), Vector(1200, 3000, 0))},
-               {50, 0, 0}, 90, 15, 60, 35, 220});
+  s.push_back({"sphere",
+               {moved(reference::test::icosphere(300, 3), Vector(1200, 3000, 0))},
+               {50, 0, 0},
+               90,
+               15,
+               60,
+               35,
+               220});
   s.push_back({"comb of slats", comb(), {50, 0, 0}, 90, 12, 60, 25, 150});
   s.push_back({"nested boxes",
                {block, box(Vector(1100, 3100, -100), Vector(1300, 3300, 100))},
-               {50, 0, 0}, 90, 15, 60, 40, 200});
+               {50, 0, 0},
+               90,
+               15,
+               60,
+               40,
+               200});
   s.push_back({"overlapping shadows",
                {block, box(Vector(500, 2800, 300), Vector(900, 3300, 800))},
-               {50, 0, 0}, 90, 12, 60, 40, 180});
+               {50, 0, 0},
+               90,
+               12,
+               60,
+               40,
+               180});
   s.push_back({"camera in shadow", {roof}, {50, 0, 0}, 90, 8, 60, 80, 180});
   s.push_back({"towards the sun", {block}, {50, 0, 0}, 90, 20, 60, 30, 88});
   s.push_back({"in shadow, towards the sun", {block}, {50, 0, 0}, 90, 20, 60, 20, 90});
@@ -56,7 +72,7 @@ std::vector<ShadowScene> shadowScenes() {
 ShadowScene randomScene(uint32_t seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
-  ShadowScene scene = {"random meshes", {}, {50, 0, 0}, 90, 15, 70, 45 + 30 * any(random),
+  ShadowScene scene = {"random meshes",        {}, {50, 0, 0}, 90, 15, 70, 45 + 30 * any(random),
                        180 + 170 * any(random)};
   for (int i = 0; i < 4; ++i) {
     Mesh mesh = reference::test::icosphere(250 + 100 * any(random), 1);
@@ -64,8 +80,8 @@ ShadowScene randomScene(uint32_t seed) {
       const double bump = 1.0 + 0.4 * any(random);
       for (size_t k = 0; k < 3; ++k) mesh.positions[v + k] *= bump;
     }
-    scene.casters.push_back(moved(mesh, Vector(1200 + 300 * any(random), 3000 + 500 * any(random),
-                                               500 * any(random))));
+    scene.casters.push_back(
+        moved(mesh, Vector(1200 + 300 * any(random), 3000 + 500 * any(random), 500 * any(random))));
   }
   return scene;
 }

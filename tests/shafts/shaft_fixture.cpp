@@ -53,8 +53,7 @@ std::vector<std::unique_ptr<ShaftRig>>& ShaftTest::rigs() {
 ShaftRig& ShaftTest::rigOf(const ShaftSetup& setup, VkExtent2D size) {
   for (const auto& rig : rigs())
     if (rig->serves(setup, size)) return *rig;
-  return *rigs().emplace_back(
-      std::make_unique<ShaftRig>(context(), device(), setup, size, baked));
+  return *rigs().emplace_back(std::make_unique<ShaftRig>(context(), device(), setup, size, baked));
 }
 
 void ShaftTest::TearDownTestSuite() {
@@ -192,7 +191,7 @@ Casters ShaftTest::casters() {
   casters.draw = [](void* user, VkCommandBuffer commands, const CasterPass* pass) {
     auto* test = static_cast<ShaftTest*>(user);
     placeCaster(pass, groundOrigin(test->parameters).data(), nullptr);
-    test->drawAll(commands);
+    if (!test->drawNothing) test->drawAll(commands);
   };
   return casters;
 }

@@ -42,6 +42,7 @@ class ShaftTest : public SkyTest {
   const reference::MeshRays& rays();
   const Box& bounds() const { return bounds_; }
   Casters casters();
+  bool drawNothing = false;  ///< The callback of casters() leaves them out.
   /// Over a black ground, so that what shadows take away is the air's. SetUp does it.
   void useEarth();
   /// Air of one density, so thin that light is proportional to the length of lit air.
