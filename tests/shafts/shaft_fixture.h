@@ -55,6 +55,7 @@ class ShaftTest : public SkyTest {
                    double sunElevation, double sunAzimuth);
   /// With objects that are made at the first use of such a setup and serve all further ones.
   ShaftPicture draw(const ShaftSetup& setup, const SkyDraw& draw);
+  ShaftRig& rigOf(const ShaftSetup& setup, VkExtent2D size);
   /// Ray through the middle of a pixel, in the planet's frame: origin and direction.
   std::pair<Vec, Vec> pixelRay(const ShaftSetup& setup, const SkyDraw& draw, double x, double y);
 
@@ -65,7 +66,6 @@ class ShaftTest : public SkyTest {
     uint32_t indexCount = 0;
   };
   static std::vector<std::unique_ptr<ShaftRig>>& rigs();
-  ShaftRig& rigOf(const ShaftSetup& setup, VkExtent2D size);
   void drawAll(VkCommandBuffer commands);
   Status recordDepth(VkCommandBuffer commands, const ShaftSetup& setup, const SkyDraw& draw,
                      ShaftRig& target);
