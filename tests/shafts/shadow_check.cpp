@@ -147,7 +147,9 @@ std::optional<bool> ShadowCheckTest::surfaceInShadow(const ShadowBand& band, dou
   const Vector a =
       glm::normalize(glm::cross(n, std::abs(n.x) < 0.9 ? Vector(1, 0, 0) : Vector(0, 1, 0)));
   const Vector b = glm::cross(n, a);
-  const Vector at = band.ray.position + hit->t * band.ray.view + 0.1 * slack * n;
+  const Vector on = band.ray.position + hit->t * band.ray.view;
+  const bool touching = rays().blocked(on + 1e-3 * n, band.ray.sun, 0.0, reference::kEndless);
+  const Vector at = on + 0.1 * slack * n;
   int dark = 0;
   for (int i = -1; i <= 1; ++i) {
     for (int j = -1; j <= 1; ++j) {
@@ -155,8 +157,8 @@ std::optional<bool> ShadowCheckTest::surfaceInShadow(const ShadowBand& band, dou
       dark += rays().blocked(p, band.ray.sun, 0.0, reference::kEndless) ? 1 : 0;
     }
   }
-  if (dark != 0 && dark != 9) return std::nullopt;
-  return dark == 9;
+  if (dark != (touching ? 9 : 0)) return std::nullopt;
+  return touching;
 }
 
 std::vector<double> ShadowCheckTest::losses(ShaftSetup setup, const SkyDraw& d, ShaftPicture* with,
