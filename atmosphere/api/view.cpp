@@ -14,9 +14,9 @@ Status checkShafts(const Context& context, const ViewDesc& desc) {
   if (desc.shafts == nullptr) return Status::Ok;
   const ShaftsDesc& shafts = desc.shafts->desc();
   const SceneDepth &a = shafts.sceneDepth, &b = desc.sceneDepth;
-  const bool same = a.view == b.view && a.extent.width == b.extent.width &&
-                    a.extent.height == b.extent.height && shafts.depth == desc.depth &&
-                    shafts.projection == desc.projection;
+  const bool same = a.view == b.view && a.format == b.format && a.layout == b.layout &&
+                    a.extent.width == b.extent.width && a.extent.height == b.extent.height &&
+                    shafts.depth == desc.depth && shafts.projection == desc.projection;
   if (same && desc.solver == Solver::Moments && &desc.shafts->resources() == context.bake)
     return Status::Ok;
   return context.device->fail(

@@ -148,8 +148,10 @@ ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,
   store(frame.airSlice, slice, 1.0, air.view.extinction_);
   store(frame.airSun, air.sunAzimuth, 1.0, air.view.startHeight);
   frame.airHeight[0] = static_cast<float>(air.view.height);
-  // A texel's width along the beam, and the relief of a lit slope hides under the slope.
-  frame.airHeight[1] = static_cast<float>(std::max(map.halfU, map.halfV) / half * reliefStep(desc));
+  // A quarter of a cell's width along the beam, and the relief of a lit slope hides under the
+  // slope.
+  frame.airHeight[1] =
+      static_cast<float>(0.25 * std::max(map.halfU, map.halfV) / half * reliefStep(desc));
   return frame;
 }
 

@@ -358,7 +358,8 @@ bool Shafts::serves(const Tables& tables, const SkyDraw& draw) const {
   const VkRect2D &p = draw_.viewport, &q = draw.viewport;
   return tablesId_ == tables.id() && same(a.position_m, b.position_m) &&
          same(a.forward, b.forward) && same(a.up, b.up) && a.fov == b.fov &&
-         a.height_m == b.height_m && same(draw_.sun.direction, draw.sun.direction) &&
+         a.height_m == b.height_m && draw_.depth.near_m == draw.depth.near_m &&
+         draw_.depth.far_m == draw.depth.far_m && same(draw_.sun.direction, draw.sun.direction) &&
          p.offset.x == q.offset.x && p.offset.y == q.offset.y && p.extent.width == q.extent.width &&
          p.extent.height == q.extent.height;
 }

@@ -69,8 +69,8 @@ Status recordSunMap(Shafts* shafts, VkCommandBuffer commands, const FrameInfo& f
 
 /// Records, outside any rendering scope, the shadows of this draw's camera, after the host's scene
 /// has been drawn into the depth image: the view's recordSky and recordAir of the same draw then
-/// read them. With Exact after recordSunMap for the same sun, and recordSkySlice of the view for
-/// the same draw (orthographic cameras need none). Clobbers as recordSunMap.
+/// read them. Exact and March: after recordSunMap for the same sun, to the last bit. Exact looks light
+/// up if the view has recorded a sky slice for this draw, else it integrates. Clobbers as recordSunMap.
 Status recordShafts(Shafts* shafts, View* view, VkCommandBuffer commands, const FrameInfo& frame,
                     const Tables* tables, const SkyDraw& draw, const Casters& casters);
 

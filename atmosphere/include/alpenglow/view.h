@@ -65,8 +65,8 @@ struct ViewDesc {
   /// once a frame makes a pixel of recordSky much cheaper; of Solver::Standard, for cameras inside
   /// the atmosphere only.
   const Tables* skySlice = nullptr;
-  /// For recordAir; a null view: the view has no aerial perspective. Make another view when the
-  /// host's depth image is made anew.
+  /// For recordAir; a null view: the view has no aerial perspective. Needs one sample, a colour
+  /// format that blends, and no fisheye. Make another view when the depth image is made anew.
   SceneDepth sceneDepth;
   /// Light shafts that the view draws; it outlives the view. Null: none. Needs sceneDepth, the same
   /// as the shafts', and Solver::Moments.
@@ -121,7 +121,7 @@ Status recordSkySlice(View* view, VkCommandBuffer commands, const FrameInfo& fra
 /// Draws the viewport inside the host's rendering scope, with dynamic viewport and scissor: a few
 /// draws, at most 64, of rectangles that together are the viewport, each with the pipeline for what
 /// its pixels may see of air, ground and sun. The tables must be ready. Clobbers: graphics
-/// pipeline, sets 0 and 1, push constants, viewport, scissor.
+/// pipeline, sets 0 and 1 (0 to 3 with ViewDesc::sceneDepth), push constants, viewport, scissor.
 Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame, const Tables* tables,
                  const SkyDraw& draw);
 
