@@ -123,7 +123,7 @@ TEST_F(ShaftConventionsTest, DepthWithStencilIsReadToo) {
     if ((features & kNeeded) != kNeeded) continue;
     ++formats;
     for (const ShaftMethod method : kMethods) {
-      if (formats > 1 && method != ShaftMethod::Exact) continue;
+      if (formats > 1 && method != ShaftMethod::Exact) continue;  // each compiles for seconds
       ShaftSetup setup;
       setup.method = method;
       // Fixed point resolves what is near: let that be where depth is.

@@ -100,19 +100,21 @@ TEST_F(ShaftDegenerateTest, ASheetHasNoThickness) {
     expectSane(stage(over({sheet}, elevation, 180)), false);
   // It does cast a shadow.
   const SkyDraw d = stage(over({sheet}, 40, 180));
+  ShaftSetup setup;
+  setup.sunMapSize = 256;
   ShaftPicture with, without;
   double sum = 0.0;
-  for (const double loss : losses(ShaftSetup{}, d, &with, &without)) sum += loss;
+  for (const double loss : losses(setup, d, &with, &without)) sum += loss;
   EXPECT_GT(sum, 1e-3);
 }
 
 TEST_F(ShaftDegenerateTest, NothingCastsNoShadow) {
-  addCaster(kBlock);
   const SkyDraw d = stage(over({kBlock}, 35, 200));
   drawNothing = true;
   for (const ShaftMethod method : {ShaftMethod::Exact, ShaftMethod::Paper, ShaftMethod::March}) {
     ShaftSetup setup;
     setup.method = method;
+    setup.sunMapSize = 256;
     setup.hostDepth = false;
     ShaftPicture with, without;
     for (const double loss : losses(setup, d, &with, &without)) EXPECT_EQ(loss, 0.0);
