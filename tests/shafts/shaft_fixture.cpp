@@ -1,7 +1,5 @@
 #include "tests/shafts/shaft_fixture.h"
 
-#include <alpenglow/shaders/test_host_depth.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -16,7 +14,6 @@ namespace {
 
 using namespace engine;
 
-constexpr VkFormat kColor = VK_FORMAT_R32G32B32A32_SFLOAT;
 constexpr ImageState kColorDrawn = {
     VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
@@ -29,11 +26,6 @@ constexpr ImageState kDepthRead = {
     VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL,
     kDepthStages | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
-
-struct HostConstants {
-  float clipFromCamera[16];
-  float fromCamera[4];
-};
 
 VkRenderingAttachmentInfo attachmentOf(const Image& image, VkImageLayout layout,
                                        VkAttachmentLoadOp load, VkAttachmentStoreOp store) {
@@ -53,10 +45,40 @@ bool hasStencil(VkFormat format) {
 
 Vec groundOrigin(const Parameters& parameters) { return {parameters.bottomRadius_m, 0.0, 0.0}; }
 
+std::vector<std::unique_ptr<ShaftRig>>& ShaftTest::rigs() {
+  static std::vector<std::unique_ptr<ShaftRig>> all;
+  return all;
+}
+
+ShaftRig& ShaftTest::rigOf(const ShaftSetup& setup, VkExtent2D size) {
+  for (const auto& rig : rigs())
+    if (rig->serves(setup, size)) return *rig;
+  return *rigs().emplace_back(std::make_unique<ShaftRig>(context(), device(), setup, size, baked));
+}
+
+void ShaftTest::TearDownTestSuite() {
+  rigs().clear();
+  SkyTest::TearDownTestSuite();
+}
+
 void ShaftTest::SetUp() {
   SkyTest::SetUp();
+  useEarth();
+}
+
+void ShaftTest::useEarth() {
   parameters = preset("earth");
-  baked = tables("earth");
+  parameters.groundAlbedo = {};
+  baked = tables("earth, black ground", parameters);
+}
+
+void ShaftTest::useThinAir() {
+  parameters = preset("earth");
+  parameters.mie.present = parameters.absorption.present = false;
+  parameters.rayleigh.scattering_per_m = {{1e-9, 1e-9, 1e-9}};
+  parameters.rayleigh.scaleHeight_m = 1e8;  // the validator's greatest
+  parameters.groundAlbedo = {};
+  baked = tables("thin", parameters);
 }
 
 void ShaftTest::TearDown() {
@@ -169,7 +191,7 @@ Casters ShaftTest::casters() {
   casters.draw = [](void* user, VkCommandBuffer commands, const CasterPass* pass) {
     auto* test = static_cast<ShaftTest*>(user);
     placeCaster(pass, groundOrigin(test->parameters).data(), nullptr);
-    test->drawAll(commands);
+    if (!test->drawNothing) test->drawAll(commands);
   };
   return casters;
 }
@@ -184,85 +206,8 @@ void ShaftTest::drawAll(VkCommandBuffer commands) {
   }
 }
 
-/// The host's images and its pipeline for depth.
-struct ShaftTest::Target {
-  Target(engine::Device& d, headless::Device& h, const ShaftSetup& setup, VkExtent2D size)
-      : device(d) {
-    ImageDesc desc;
-    desc.extent = {size.width, size.height, 1};
-    desc.format = kColor;
-    desc.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    desc.name = "light";
-    EXPECT_EQ(createImage(device, desc, &color), Status::Ok);
-    desc.format = setup.depthFormat;
-    desc.usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                 VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    desc.linearFilter = false;
-    desc.name = "depth";
-    EXPECT_EQ(createImage(device, desc, &depth), Status::Ok);
-    Image* images[] = {&color, &depth};
-    EXPECT_EQ(allocateAndBind(device, "host", VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, images, 2,
-                              nullptr, 0, &block),
-              Status::Ok);
-    const VkPushConstantRange range = {VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(HostConstants)};
-    EXPECT_EQ(createPipelineLayout(device, nullptr, 0, &range, 1, "host", &layout), Status::Ok);
-    const bool reversed = setup.depth == DepthConvention::Reversed;
-    GraphicsPipelineDesc draw;
-    draw.vertex = {shaders::kTestHostDepth, sizeof shaders::kTestHostDepth, "host_depth"};
-    draw.layout = layout;
-    draw.vertices = {12, 0};
-    draw.topology = Topology::TrianglesWithAdjacency;
-    draw.depthFormat = setup.depthFormat;
-    draw.depthTest = draw.depthWrite = true;
-    draw.depthCompare = reversed ? VK_COMPARE_OP_GREATER : VK_COMPARE_OP_LESS;
-    EXPECT_EQ(createGraphicsPipeline(device, draw, &pipeline), Status::Ok);
-    std::string error;
-    readback = h.createHostBuffer(VkDeviceSize{64} * size.width * size.height,
-                                  VK_BUFFER_USAGE_TRANSFER_DST_BIT, &error);
-    EXPECT_TRUE(error.empty()) << error;
-  }
-  ~Target() {
-    device.destroyObject(VK_OBJECT_TYPE_PIPELINE, pipeline);
-    device.destroyObject(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout);
-    destroyImage(device, &color);
-    destroyImage(device, &depth);
-    freeBlock(device, &block);
-  }
-  Target(const Target&) = delete;
-  Target& operator=(const Target&) = delete;
-
-  /// Appends a copy of the image to the readback buffer; returns its offset.
-  VkDeviceSize copyBack(VkCommandBuffer commands, Image& image, VkImageAspectFlags aspect,
-                        uint32_t texelBytes) {
-    Barriers barriers;
-    barriers.image(image, kTransferSource);
-    EXPECT_EQ(barriers.record(device, commands), Status::Ok);
-    VkBufferImageCopy copy = {};
-    copy.bufferOffset = used;
-    copy.imageSubresource = {aspect, 0, 0, 1};
-    copy.imageExtent = image.desc.extent;
-    device.vk().CmdCopyImageToBuffer(commands, image.handle, kTransferSource.layout,
-                                     readback.buffer(), 1, &copy);
-    used += VkDeviceSize{texelBytes} * copy.imageExtent.width * copy.imageExtent.height;
-    return copy.bufferOffset;
-  }
-  std::vector<float> floats(VkDeviceSize offset, size_t count) const {
-    std::vector<float> values(count);
-    std::memcpy(values.data(), static_cast<const char*>(readback.data()) + offset, count * 4);
-    return values;
-  }
-
-  engine::Device& device;
-  Image color, depth;
-  MemoryBlock block;
-  VkPipelineLayout layout = VK_NULL_HANDLE;
-  VkPipeline pipeline = VK_NULL_HANDLE;
-  headless::HostBuffer readback;
-  VkDeviceSize used = 0;
-};
-
 Status ShaftTest::recordDepth(VkCommandBuffer commands, const ShaftSetup& setup,
-                              const SkyDraw& draw, Target& target) {
+                              const SkyDraw& draw, ShaftRig& target) {
   engine::Device& inner = *context()->device;
   const Dispatch& vk = inner.vk();
   const VkExtent2D size = draw.viewport.extent;
@@ -298,7 +243,7 @@ Status ShaftTest::recordDepth(VkCommandBuffer commands, const ShaftSetup& setup,
 }
 
 Status ShaftTest::recordLight(VkCommandBuffer commands, const ShaftSetup& setup,
-                              const SkyDraw& draw, View* view, Target& target) {
+                              const SkyDraw& draw, View* view, ShaftRig& target) {
   engine::Device& inner = *context()->device;
   Barriers barriers;
   barriers.discard(target.color, kColorDrawn);
@@ -322,48 +267,11 @@ Status ShaftTest::recordLight(VkCommandBuffer commands, const ShaftSetup& setup,
 }
 
 ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
-  engine::Device& inner = *context()->device;
   const VkExtent2D size = draw.viewport.extent;
-  Target target(inner, device(), setup, size);
-  const FrameInfo none{};
-
-  // A view of the depth alone, as a host has one beside that of its attachment.
-  VkImageViewCreateInfo viewInfo =
-      structure<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
-  viewInfo.image = target.depth.handle;
-  viewInfo.viewType = VK_IMAGE_VIEW_TYPE_2D;
-  viewInfo.format = setup.depthFormat;
-  viewInfo.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
-  SceneDepth scene;
-  scene.format = setup.depthFormat;
-  scene.extent = size;
-  EXPECT_EQ(inner.vk().CreateImageView(inner.handle(), &viewInfo, nullptr, &scene.view),
-            VK_SUCCESS);
-
-  ShaftsDesc shaftsDesc;
-  shaftsDesc.method = setup.method;
-  shaftsDesc.sceneDepth = scene;
-  shaftsDesc.depth = setup.depth;
-  shaftsDesc.projection = setup.projection;
-  shaftsDesc.sunMapSize = setup.sunMapSize;
-  shaftsDesc.samples = setup.samples;
-  shaftsDesc.adjacency = true;
-  shaftsDesc.reliefSize = setup.reliefSize;
-  shaftsDesc.multipleLoss = setup.multipleLoss;
-  Shafts* shafts = nullptr;
-  if (setup.shafts) {
-    EXPECT_EQ(createShafts(context(), shaftsDesc, &shafts), Status::Ok) << message();
-  }
-  ViewDesc viewDesc;
-  viewDesc.colorFormat = kColor;
-  viewDesc.depthFormat = setup.depthFormat;
-  viewDesc.depth = setup.depth;
-  viewDesc.projection = setup.projection;
-  viewDesc.sceneDepth = scene;
-  viewDesc.shafts = shafts;
-  if (setup.sliced && setup.projection != Projection::Orthographic) viewDesc.skySlice = baked;
-  View* view = nullptr;
-  EXPECT_EQ(createView(context(), viewDesc, &view), Status::Ok) << message();
+  ShaftRig& target = rigOf(setup, size);
+  Shafts* shafts = target.shafts;
+  View* view = target.view;
+  target.used = 0;
 
   ShaftPicture out;
   VkDeviceSize offsets[4] = {};
@@ -379,7 +287,7 @@ ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
   for (uint32_t pass = 0; pass < setup.passes; ++pass) {
     step(&out.seconds.depth,
          [&](VkCommandBuffer c) { return recordDepth(c, setup, draw, target); });
-    if (viewDesc.skySlice != nullptr) {
+    if (target.sliced) {
       step(&out.seconds.slice, [&](VkCommandBuffer c) {
         return recordSkySlice(view, c, device().frame(), baked, draw);
       });
@@ -417,9 +325,6 @@ ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
     out.sums = target.floats(offsets[2], 2 * pixels);
     out.bounds = target.floats(offsets[3], 2 * pixels);
   }
-  destroyView(view, none);
-  destroyShafts(shafts, none);
-  inner.vk().DestroyImageView(inner.handle(), scene.view, nullptr);
   return out;
 }
 

@@ -8,28 +8,13 @@
 #include "engine/memory.h"
 #include "engine/pipeline.h"
 #include "tests/reference/test_meshes.h"
-#include "tests/sky/sky_fixture.h"
+#include "tests/shafts/shaft_rig.h"
 
 namespace alpenglow::testing {
 
 /// Local coordinates: metres up, east and north of the point of the ground at latitude 0, longitude
 /// 0, which are the planet's axes there, so `origin()` is all that lies between them.
 Vec groundOrigin(const Parameters& parameters);
-
-struct ShaftSetup {
-  ShaftMethod method = ShaftMethod::Exact;
-  DepthConvention depth = DepthConvention::Reversed;
-  Projection projection = Projection::Perspective;
-  bool sliced = true;  ///< Light from an air volume, else integrated.
-  VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
-  uint32_t sunMapSize = 1024;
-  uint32_t reliefSize = 0;
-  uint32_t samples = 0;
-  double multipleLoss = -1.0;
-  bool hostDepth = true;  ///< The casters are drawn into the depth image too.
-  bool shafts = true;     ///< Else aerial perspective alone.
-  uint32_t passes = 1;    ///< Drawn so often; the last is timed.
-};
 
 /// User CPU of each step.
 struct ShaftSeconds {
@@ -48,19 +33,29 @@ class ShaftTest : public SkyTest {
  protected:
   void SetUp() override;
   void TearDown() override;
+  static void TearDownTestSuite();
 
   /// In local coordinates; drawn by the next pictures and known to `rays()`.
   void addCaster(const reference::test::Mesh& mesh);
   void clearCasters();
   /// All casters, in the planet's frame.
   const reference::MeshRays& rays();
+  const Box& bounds() const { return bounds_; }
+  Casters casters();
+  bool drawNothing = false;  ///< The callback of casters() leaves them out.
+  /// Over a black ground, so that what shadows take away is the air's. SetUp does it.
+  void useEarth();
+  /// Air of one density, so thin that light is proportional to the length of lit air.
+  void useThinAir();
   Parameters parameters;  ///< Of `baked`.
   Tables* baked = nullptr;
 
   /// At local (up, east, north), looking at angles like a scene's camera.
   SkyDraw drawFrom(const Vec& local, double heading, double pitch, double fov, VkExtent2D extent,
                    double sunElevation, double sunAzimuth);
+  /// With objects that are made at the first use of such a setup and serve all further ones.
   ShaftPicture draw(const ShaftSetup& setup, const SkyDraw& draw);
+  ShaftRig& rigOf(const ShaftSetup& setup, VkExtent2D size);
   /// Ray through the middle of a pixel, in the planet's frame: origin and direction.
   std::pair<Vec, Vec> pixelRay(const ShaftSetup& setup, const SkyDraw& draw, double x, double y);
 
@@ -70,13 +65,12 @@ class ShaftTest : public SkyTest {
     engine::MemoryBlock block;
     uint32_t indexCount = 0;
   };
-  struct Target;
-  Casters casters();
+  static std::vector<std::unique_ptr<ShaftRig>>& rigs();
   void drawAll(VkCommandBuffer commands);
   Status recordDepth(VkCommandBuffer commands, const ShaftSetup& setup, const SkyDraw& draw,
-                     Target& target);
+                     ShaftRig& target);
   Status recordLight(VkCommandBuffer commands, const ShaftSetup& setup, const SkyDraw& draw,
-                     View* view, Target& target);
+                     View* view, ShaftRig& target);
 
   std::vector<reference::test::Mesh> meshes_;
   std::vector<CasterBuffers> buffers_;

@@ -165,12 +165,16 @@ Context* SkyTest::context() {
 }
 
 Tables* SkyTest::tables(const char* presetName, MieStorage mie) {
-  Tables*& slot = shared().tables[{presetName, solver_, mie}];
+  return tables(presetName, preset(presetName), mie);
+}
+
+Tables* SkyTest::tables(const char* name, const Parameters& parameters, MieStorage mie) {
+  Tables*& slot = shared().tables[{name, solver_, mie}];
   if (slot == nullptr) {
     TableDesc draft;
     draft.quality = Quality::Draft;
     const TableDesc desc = solver_ == Solver::Moments ? draft : smallTables(mie);
-    EXPECT_EQ(createTables(context(), preset(presetName), desc, &slot), Status::Ok) << message();
+    EXPECT_EQ(createTables(context(), parameters, desc, &slot), Status::Ok) << message();
     bakeAll(device(), slot);
   }
   return slot;

@@ -122,6 +122,8 @@ class SkyTest : public DeviceTest {
   VulkanWrap& vulkan();  ///< What `context` calls.
   /// Of the suite's solver, baked at the first use.
   Tables* tables(const char* presetName = "earth", MieStorage mie = MieStorage::Full);
+  /// Of other parameters, under a name of their own.
+  Tables* tables(const char* name, const Parameters& parameters, MieStorage mie = MieStorage::Full);
   /// Made at the first use, of 32-bit floats unless `desc` says otherwise; destroyed at the end.
   View* view(Projection projection = Projection::Perspective);
   /// Of 32-bit floats, for the suite's solver.

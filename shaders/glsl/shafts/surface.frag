@@ -18,8 +18,9 @@ void main() {
   vec3 view;
   Ray ray = pixelRay(gl_FragCoord.xy, view);
   float t = kOrthographic ? dot(position, view) : length(position);
-  // The ground's sphere is in no depth image.
-  bool reached = !ray.hitsGround || t < ray.start + ray.extent;
+  // The ground's sphere is in no depth image; depth is clamped, so that a parallel camera sees what lies behind
+  // the plane where its rays begin.
+  bool reached = (!ray.hitsGround || t < ray.start + ray.extent) && !(kOrthographic && t < 0.0);
   // The strips show their fronts to the light.
   float sign_ = reached ? (gl_FrontFacing ? 1.0 : -1.0) : 0.0;
   sums = vec4(sign_ * alpenglowAirSingle(airRayOf(ray, view), t), sign_);
