@@ -19,6 +19,7 @@ TEST_F(ShaftBench, UserCpuOfEachStep) {
       setup.shafts = method >= 0;
       setup.method = static_cast<ShaftMethod>(std::max(method, 0));
       setup.sunMapSize = 2048;
+      setup.closed = true;
       setup.multipleLoss = 0.0;
       setup.passes = 2;
       const ShaftSeconds s = draw(setup, d).seconds;

@@ -94,6 +94,7 @@ void ShaftRig::makeView(Context* context, const Tables* slice) {
   desc.sunMapSize = setup.sunMapSize;
   desc.samples = setup.samples;
   desc.adjacency = true;
+  desc.closed = setup.closed;
   desc.reliefSize = setup.reliefSize;
   desc.multipleLoss = setup.multipleLoss;
   if (setup.shafts) {

@@ -23,6 +23,7 @@ struct ShaftSetup {
   uint32_t samples = 0;
   double multipleLoss = -1.0;
   bool hostDepth = true;  ///< The casters are drawn into the depth image too.
+  bool closed = false;    ///< The casters are.
   bool shafts = true;     ///< Else aerial perspective alone.
   uint32_t passes = 1;    ///< Drawn so often; the last is timed.
 };

@@ -143,6 +143,7 @@ TEST_F(TerrainErrors, ExactMeetsItsGoals) {
     std::vector<Wanted> wanted = reference(d, off);
     ShaftSetup setup;
     setup.sunMapSize = 2048;
+    setup.closed = true;
     const Errors e = errorsOf(d, draw(setup, d), off, wanted);
     std::printf("%s, %zu rays, per cent\n", v.name, wanted.size());
     print("exact", 1024, e);
@@ -159,6 +160,7 @@ TEST_F(TerrainErrors, OfEachMethod) {
     std::printf("%s, %zu rays, per cent\n", v.name, wanted.size());
     ShaftSetup setup;
     setup.sunMapSize = 2048;
+    setup.closed = true;
     for (const uint32_t relief : {512u, 1024u, 2048u}) {
       setup.reliefSize = relief;
       print("exact", relief, errorsOf(d, draw(setup, d), off, wanted));
