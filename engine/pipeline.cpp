@@ -159,7 +159,7 @@ struct FixedFunctions {
     viewport.viewportCount = 1;
     viewport.scissorCount = 1;
     rasterization.polygonMode = VK_POLYGON_MODE_FILL;
-    rasterization.cullMode = VK_CULL_MODE_NONE;
+    rasterization.cullMode = desc.cull;
     rasterization.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     rasterization.depthClampEnable = desc.depthClamp ? VK_TRUE : VK_FALSE;
     rasterization.lineWidth = 1.0f;

@@ -63,7 +63,7 @@ struct VertexInput {
 };
 
 /// By default a pipeline for a triangle that covers the viewport: no vertex input, triangle list,
-/// no no blending, no depth write. Never culls; viewport and scissor are dynamic. The front of a
+/// no no blending, no depth write. Viewport and scissor are dynamic. The front of a
 /// triangle is where its vertices run counter-clockwise on the screen (y down).
 struct GraphicsPipelineDesc {
   Shader vertex;
@@ -81,6 +81,7 @@ struct GraphicsPipelineDesc {
   uint32_t viewMask = 0;                     ///< Of dynamic rendering.
   VkRenderPass renderPass = VK_NULL_HANDLE;  ///< Null: dynamic rendering with the formats above.
   uint32_t subpass = 0;
+  VkCullModeFlags cull = VK_CULL_MODE_NONE;
   bool depthTest = false;
   bool depthWrite = false;
   bool depthClamp = false;  ///< Needs the feature: nothing is clipped at the near and far planes.

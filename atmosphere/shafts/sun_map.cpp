@@ -56,6 +56,9 @@ Status SunMap::makePipeline(const ShaftsDesc& desc) {
   draw.depthTest = draw.depthWrite = true;
   draw.depthClamp = true;
   draw.depthCompare = VK_COMPARE_OP_LESS;
+  // The map's rows run down the picture where its axes form a right-handed frame with the sun: what
+  // faces the sun runs clockwise.
+  if (desc.closed) draw.cull = VK_CULL_MODE_FRONT_BIT;
   return engine::createGraphicsPipeline(device_, draw, &pipeline_);
 }
 

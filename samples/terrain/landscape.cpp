@@ -67,6 +67,7 @@ void Landscape::uploadTerrain(const io::SceneTerrain& terrain, const io::AlbedoM
 
 void Landscape::makeShafts(const LandscapeDesc& desc) {
   ShaftsDesc full = *desc.shafts;
+  full.closed = true;
   full.adjacency = full.method == ShaftMethod::Paper;
   if (full.adjacency) {
     const std::vector<uint32_t> indices = withAdjacency(*mesh_);

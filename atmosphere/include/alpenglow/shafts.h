@@ -33,6 +33,8 @@ struct ShaftsDesc {
   double multipleLoss = 0.0;
   uint32_t vertexStride = 0;  ///< Bytes from one vertex of a caster to the next; 0: 12.
   uint32_t vertexOffset = 0;  ///< Of its position, three floats.
+  bool closed = false;  ///< Casters are closed surfaces, counter-clockwise seen from outside: the
+                        ///< map from the sun then leaves out what faces away from it.
   bool adjacency = false;  ///< Casters are triangles with adjacency (alpenglow/mesh.h), else plain
                            ///< triangles. Paper needs it.
 };
@@ -69,8 +71,9 @@ Status recordSunMap(Shafts* shafts, VkCommandBuffer commands, const FrameInfo& f
 
 /// Records, outside any rendering scope, the shadows of this draw's camera, after the host's scene
 /// has been drawn into the depth image: the view's recordSky and recordAir of the same draw then
-/// read them. Exact and March: after recordSunMap for the same sun, to the last bit. Exact looks light
-/// up if the view has recorded a sky slice for this draw, else it integrates. Clobbers as recordSunMap.
+/// read them. Exact and March: after recordSunMap for the same sun, to the last bit. Exact looks
+/// light up if the view has recorded a sky slice for this draw, else it integrates. Clobbers as
+/// recordSunMap.
 Status recordShafts(Shafts* shafts, View* view, VkCommandBuffer commands, const FrameInfo& frame,
                     const Tables* tables, const SkyDraw& draw, const Casters& casters);
 
