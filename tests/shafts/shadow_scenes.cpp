@@ -60,6 +60,8 @@ std::vector<ShadowScene> shadowScenes() {
   s.push_back({"camera in shadow", {roof}, {50, 0, 0}, 90, 8, 60, 80, 180});
   s.push_back({"towards the sun", {block}, {50, 0, 0}, 90, 20, 60, 30, 88});
   s.push_back({"in shadow, towards the sun", {block}, {50, 0, 0}, 90, 20, 60, 20, 90});
+  s.push_back({"in shadow, sun behind", {block}, {50, 4000, 0}, 90, 8, 60, 50, 270});
+  s.push_back({"in shadow, sun along the near plane", {block}, {50, 3200, -800}, 90, 0, 60, 60, 0});
   s.push_back({"away from the sun", {block}, {1800, 4000, 0}, 90, -15, 60, 15, 270});
   s.push_back({"sun straight up", {block}, {50, 0, 0}, 90, 12, 60, 90, 0});
   s.push_back({"sun along the near plane", {block}, {50, 0, 0}, 90, 0, 60, 30, 0});
