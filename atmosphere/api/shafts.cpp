@@ -39,10 +39,11 @@ Status recordShafts(Shafts* shafts, View* view, VkCommandBuffer commands, const 
   shafts->collect(frame);
   const engine::Device& device = shafts->resources().device();
   Status status = view->checkRecord(*tables, draw, "recordShafts");
-  if (status == Status::Ok && &view->resources() != &shafts->resources()) {
+  if (status == Status::Ok && view->desc().shafts != shafts) {
     status = device.fail(Status::InvalidArgument, VK_SUCCESS,
-                         "recordShafts got a view of another context, but shafts work for those of "
-                         "their own.");
+                         "recordShafts got a view that was made with %s, but needs one whose "
+                         "ViewDesc::shafts are these.",
+                         view->desc().shafts == nullptr ? "no shafts" : "others");
   }
   if (status == Status::Ok)
     status = sky::checkDepthRange(device, shafts->desc().projection, draw.depth);

@@ -151,7 +151,7 @@ TEST_F(ShaftErrorsTest, AnotherContextIsRefused) {
               Status::InvalidArgument);
     return true;
   });
-  EXPECT_TRUE(hasAll(lastDiagnostic(), "recordShafts|another context")) << lastDiagnostic();
+  EXPECT_TRUE(hasAll(lastDiagnostic(), "recordShafts|others")) << lastDiagnostic();
   destroyShafts(shafts, FrameInfo{});
   destroyContext(other);
 

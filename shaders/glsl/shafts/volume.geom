@@ -36,6 +36,8 @@ void emitOnNearPlane(vec3 p) {
   position = p;
   onNearPlane = 1.0;
   gl_Position = alpenglowShaft.clipFromCamera * vec4(p, 1.0);
+  // To the last bit: a corner is kilometres away, and the plane may be nearer than that rounds to.
+  gl_Position.w = alpenglowShaft.pixels.w > 0.5 ? 1.0 : alpenglowShaft.forwardNear.w;
   gl_Position.z = kReversed ? gl_Position.w : 0.0;
   gl_ClipDistance[0] = 0.0;
   EmitVertex();
