@@ -218,14 +218,24 @@ TEST_F(ShaftErrorsTest, AMapComesFirst) {
   ShaftRig& rig = rigOf(setup_, kExtent);
   Shafts* fresh = nullptr;
   ASSERT_EQ(createShafts(context(), goodDesc(rig), &fresh), Status::Ok);
+  ViewDesc desc;
+  desc.colorFormat = kShaftColor;
+  desc.depthFormat = setup_.depthFormat;
+  desc.depth = setup_.depth;
+  desc.sceneDepth = rig.scene;
+  desc.shafts = fresh;
+  View* view = nullptr;
+  ASSERT_EQ(createView(context(), desc, &view), Status::Ok) << message();
   run([&](VkCommandBuffer c) {
     expectRefused(recordShafts(fresh, rig.view, c, device().frame(), baked, draw_, casters()),
+                  Status::InvalidArgument, "made with others");
+    expectRefused(recordShafts(fresh, view, c, device().frame(), baked, draw_, casters()),
                   Status::InvalidArgument, "recordSunMap");
     EXPECT_EQ(recordSunMap(fresh, c, device().frame(), draw_.sun.direction, casters()), Status::Ok);
-    EXPECT_EQ(recordShafts(fresh, rig.view, c, device().frame(), baked, draw_, casters()),
-              Status::Ok);
+    EXPECT_EQ(recordShafts(fresh, view, c, device().frame(), baked, draw_, casters()), Status::Ok);
     return true;
   });
+  destroyView(view, FrameInfo{});
   destroyShafts(fresh, FrameInfo{});
 }
 
