@@ -221,7 +221,6 @@ TEST_F(ShaftErrorsTest, AMapComesFirst) {
   ViewDesc desc;
   desc.colorFormat = kShaftColor;
   desc.depthFormat = setup_.depthFormat;
-  desc.depth = setup_.depth;
   desc.sceneDepth = rig.scene;
   desc.shafts = fresh;
   View* view = nullptr;
