@@ -247,6 +247,17 @@ uint64_t variantKey(const Shader& shader, const SpecConstant* constants, uint32_
   return key;
 }
 
+void setArea(const Device& device, VkCommandBuffer commands, const VkRect2D& area) {
+  const VkViewport viewport = {static_cast<float>(area.offset.x),
+                               static_cast<float>(area.offset.y),
+                               static_cast<float>(area.extent.width),
+                               static_cast<float>(area.extent.height),
+                               0.0f,
+                               1.0f};
+  device.vk().CmdSetViewport(commands, 0, 1, &viewport);
+  device.vk().CmdSetScissor(commands, 0, 1, &area);
+}
+
 Status createPipelineLayout(Device& device, const VkDescriptorSetLayout* setLayouts,
                             uint32_t setLayoutCount, const VkPushConstantRange* ranges,
                             uint32_t rangeCount, const char* name, VkPipelineLayout* out) {

@@ -63,8 +63,8 @@ struct VertexInput {
 };
 
 /// By default a pipeline for a triangle that covers the viewport: no vertex input, triangle list,
-/// no no blending, no depth write. Viewport and scissor are dynamic. The front of a
-/// triangle is where its vertices run counter-clockwise on the screen (y down).
+/// no blending, no depth write, no culling. Viewport and scissor are dynamic. The front of a
+/// triangle is where its vertices run counter-clockwise in the picture as it is seen.
 struct GraphicsPipelineDesc {
   Shader vertex;
   Shader geometry;  ///< Optional: no code, no stage.
@@ -91,6 +91,9 @@ struct GraphicsPipelineDesc {
 /// As createComputePipeline; also Unsupported when renderPass is null and dynamicRendering is not
 /// enabled.
 Status createGraphicsPipeline(Device& device, const GraphicsPipelineDesc& desc, VkPipeline* out);
+
+/// Sets viewport and scissor of the pipelines above; depth from 0 to 1.
+void setArea(const Device& device, VkCommandBuffer commands, const VkRect2D& area);
 
 /// 64-bit key of code and constants, equal for equal ones; what shaderVariants counts.
 uint64_t variantKey(const Shader& shader, const SpecConstant* constants, uint32_t constantCount);

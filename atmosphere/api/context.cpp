@@ -9,20 +9,38 @@ namespace {
 
 constexpr CapabilityFlags kDefaultCapabilities = kCapabilityBake | kCapabilitySky;
 constexpr CapabilityFlags kAllCapabilities =
-    kDefaultCapabilities | kCapabilityAir | kCapabilityShafts;
+    kDefaultCapabilities | kCapabilityAir | kCapabilityShafts | kCapabilityShadowVolumes;
+#define ALPENGLOW_CAPABILITY_NAMES                                          \
+  "kCapabilityBake, kCapabilitySky, kCapabilityAir, kCapabilityShafts and " \
+  "kCapabilityShadowVolumes"
+
+const char* capabilityName(CapabilityFlags capability) {
+  switch (capability) {
+    case kCapabilityBake:
+      return "kCapabilityBake";
+    case kCapabilitySky:
+      return "kCapabilitySky";
+    case kCapabilityAir:
+      return "kCapabilityAir";
+    case kCapabilityShafts:
+      return "kCapabilityShafts";
+    default:
+      return "kCapabilityShadowVolumes";
+  }
+}
 
 // Each capability asks for what it alone needs.
 Requirements requirementsOf(CapabilityFlags wanted) {
   Requirements needed;
   needed.apiVersion = VK_API_VERSION_1_3;
   needed.synchronization2 = true;
-  const bool air = (wanted & kCapabilityAir) != 0, shafts = (wanted & kCapabilityShafts) != 0;
-  needed.dynamicRendering = shafts || (wanted & kCapabilitySky) != 0;
-  needed.features.dualSrcBlend = air;
-  needed.features.geometryShader = shafts;
-  needed.features.depthClamp = shafts;
-  needed.features.shaderClipDistance = shafts;
-  needed.features.independentBlend = shafts;
+  const bool volumes = (wanted & kCapabilityShadowVolumes) != 0;
+  needed.dynamicRendering = (wanted & (kCapabilitySky | kCapabilityShafts)) != 0;
+  needed.features.dualSrcBlend = (wanted & kCapabilityAir) != 0;
+  needed.features.depthClamp = (wanted & kCapabilityShafts) != 0;
+  needed.features.geometryShader = volumes;
+  needed.features.shaderClipDistance = volumes;
+  needed.features.independentBlend = volumes;
   return needed;
 }
 
@@ -38,8 +56,8 @@ Status queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstan
                          DiagnosticFn diagnostic, void* user) {
   if (out == nullptr || (wanted & ~kAllCapabilities) != 0) {
     return reportTo(diagnostic, user, Status::InvalidArgument,
-                    "queryRequirements needs a place for its answer and capabilities among "
-                    "kCapabilityBake, kCapabilitySky, kCapabilityAir and kCapabilityShafts.");
+                    "queryRequirements needs a place for its answer and capabilities "
+                    "among " ALPENGLOW_CAPABILITY_NAMES ".");
   }
   *out = requirementsOf(wanted == 0 ? kDefaultCapabilities : wanted);
   return engine::checkPhysicalDevice(getInstanceProcAddr, instance, physicalDevice, *out,
@@ -53,9 +71,10 @@ Status createContext(const ContextDesc& desc, Context** out) {
   }
   *out = nullptr;
   if ((desc.capabilities & ~kAllCapabilities) != 0) {
-    return reportTo(desc.diagnostic, desc.user, Status::InvalidArgument,
-                    "ContextDesc::capabilities has unknown bits, but only kCapabilityBake, "
-                    "kCapabilitySky, kCapabilityAir and kCapabilityShafts exist.");
+    return reportTo(
+        desc.diagnostic, desc.user, Status::InvalidArgument,
+        "ContextDesc::capabilities has unknown bits, but only " ALPENGLOW_CAPABILITY_NAMES
+        " exist.");
   }
   auto* context = new (std::nothrow) Context;
   if (context == nullptr) {
@@ -108,10 +127,7 @@ Status requireCapability(const Context& context, CapabilityFlags capability, con
   if ((context.capabilities & capability) != 0) return Status::Ok;
   return context.device->fail(Status::Unsupported, VK_SUCCESS,
                               "%s needs a context with %s, but this one was made without it.", call,
-                              capability == kCapabilityBake  ? "kCapabilityBake"
-                              : capability == kCapabilitySky ? "kCapabilitySky"
-                              : capability == kCapabilityAir ? "kCapabilityAir"
-                                                             : "kCapabilityShafts");
+                              capabilityName(capability));
 }
 
 }  // namespace v1

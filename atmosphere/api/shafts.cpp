@@ -13,6 +13,8 @@ Status createShafts(Context* context, const ShaftsDesc& desc, Shafts** out) {
   *out = nullptr;
   const ShaftsDesc full = shafts::completed(desc);
   Status status = requireCapability(*context, kCapabilityShafts, "createShafts");
+  if (status == Status::Ok && full.method == ShaftMethod::Paper)
+    status = requireCapability(*context, kCapabilityShadowVolumes, "createShafts of Paper");
   if (status == Status::Ok) status = shafts::checkShaftsDesc(*context->device, full);
   if (status != Status::Ok) return status;
   return Shafts::create(*context->bake, full, out);

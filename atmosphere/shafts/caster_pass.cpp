@@ -1,23 +1,14 @@
 #include "atmosphere/shafts/caster_pass.h"
 
+#include "engine/pipeline.h"
+
 namespace alpenglow {
 namespace shafts {
-
-void setArea(const engine::Device& device, VkCommandBuffer commands, const VkRect2D& area) {
-  const VkViewport viewport = {static_cast<float>(area.offset.x),
-                               static_cast<float>(area.offset.y),
-                               static_cast<float>(area.extent.width),
-                               static_cast<float>(area.extent.height),
-                               0.0f,
-                               1.0f};
-  device.vk().CmdSetViewport(commands, 0, 1, &viewport);
-  device.vk().CmdSetScissor(commands, 0, 1, &area);
-}
 
 void drawCasters(const CasterPass& pass, VkPipeline pipeline, const VkRect2D& area,
                  const Casters& casters) {
   const engine::Dispatch& vk = pass.device->vk();
-  setArea(*pass.device, pass.commands, area);
+  engine::setArea(*pass.device, pass.commands, area);
   vk.CmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
   const double centre[3] = {};
   placeCaster(&pass, centre, nullptr);

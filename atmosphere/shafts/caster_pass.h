@@ -23,8 +23,6 @@ namespace shafts {
 /// Push constants of place.glsl.
 inline constexpr VkPushConstantRange kPlaceRange = {VK_SHADER_STAGE_VERTEX_BIT, 0, 48};
 
-void setArea(const engine::Device& device, VkCommandBuffer commands, const VkRect2D& area);
-
 /// Sets viewport and scissor, binds, places casters at the planet's centre until the host says
 /// otherwise, and calls it.
 void drawCasters(const CasterPass& pass, VkPipeline pipeline, const VkRect2D& area,

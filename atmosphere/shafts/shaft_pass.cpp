@@ -24,8 +24,6 @@ constexpr ImageState kBlended = {
     VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
 
-/// AlpenglowShaftFrame; the map from the sun; sums and bounds. Fragments' alone where the device
-/// has no geometry shaders.
 constexpr VkShaderStageFlags kCompute = VK_SHADER_STAGE_COMPUTE_BIT;
 constexpr VkShaderStageFlags kMapStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 constexpr VkDescriptorSetLayoutBinding sampled(uint32_t binding, VkShaderStageFlags stages) {
@@ -138,6 +136,7 @@ Status Shafts::makeTargets() {
 Status Shafts::makeSet() {
   const VkShaderStageFlags geometry =
       desc_.method == ShaftMethod::Paper ? VK_SHADER_STAGE_GEOMETRY_BIT : 0;
+  // AlpenglowShaftFrame, the map from the sun, sums, bounds, blocks.
   const VkDescriptorSetLayoutBinding bindings[kBindingCount] = {
       {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kMapStages | geometry | kCompute, nullptr},
       sampled(1, kMapStages | geometry | kCompute),
@@ -294,7 +293,7 @@ Status Shafts::cullBlocks(VkCommandBuffer commands) {
 
 void Shafts::drawSurface(VkCommandBuffer commands, const SkyDraw& draw, VkPipeline pipeline) {
   const engine::Dispatch& vk = device_.vk();
-  shafts::setArea(device_, commands, draw.viewport);
+  engine::setArea(device_, commands, draw.viewport);
   vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
   vk.CmdDrawIndirect(commands, blocks_.handle, 0, 1, 0);
   ++device_.counters().draws;

@@ -83,15 +83,7 @@ Status View::recordAir(VkCommandBuffer commands, const Tables& tables, const Sky
 
   const engine::Dispatch& vk = device_.vk();
   const sky::AirConstants constants = sky::makeAirConstants(tables.parameters(), desc_, draw);
-  const VkRect2D& area = draw.viewport;
-  const VkViewport viewport = {static_cast<float>(area.offset.x),
-                               static_cast<float>(area.offset.y),
-                               static_cast<float>(area.extent.width),
-                               static_cast<float>(area.extent.height),
-                               0.0f,
-                               1.0f};
-  vk.CmdSetViewport(commands, 0, 1, &viewport);
-  vk.CmdSetScissor(commands, 0, 1, &area);
+  engine::setArea(device_, commands, draw.viewport);
   vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                      fromVolume ? airVolumePipeline_ : airPipeline_);
   bindSets(commands, tables);

@@ -13,7 +13,7 @@ namespace alpenglow::sky {
 namespace {
 
 /// Push constants of air_volume.comp.
-struct AirConstants {
+struct VolumeConstants {
   float altitude, muS, horizon, span, bend, extinction, startHeight, height;
 };
 
@@ -120,7 +120,7 @@ Status AirVolume::makeSet() {
 Status AirVolume::makePipeline() {
   namespace s = alpenglow::shaders;
   const VkDescriptorSetLayout sets[] = {resources_.tableLayout(), setLayout_};
-  const VkPushConstantRange range = {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(AirConstants)};
+  const VkPushConstantRange range = {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(VolumeConstants)};
   const Status status =
       engine::createPipelineLayout(device_, sets, 2, &range, 1, "Alpenglow air volume", &layout_);
   if (status != Status::Ok) return status;
@@ -144,10 +144,10 @@ Status AirVolume::record(VkCommandBuffer commands, const Tables& tables, const S
   const double muS = dot(camera.position_m, draw.sun.direction) / cameraRadius(camera);
   const physics_f64::AirView view = airView(tables.parameters(), altitude);
   const auto f = [](double value) { return static_cast<float>(value); };
-  const AirConstants constants = {f(altitude),           f(muS),
-                                  f(view.slice.horizon), f(view.slice.span),
-                                  f(view.slice.bend),    f(view.extinction_),
-                                  f(view.startHeight),   f(view.height)};
+  const VolumeConstants constants = {f(altitude),           f(muS),
+                                     f(view.slice.horizon), f(view.slice.span),
+                                     f(view.slice.bend),    f(view.extinction_),
+                                     f(view.startHeight),   f(view.height)};
   const engine::Dispatch& vk = device_.vk();
   const VkDescriptorSet sets[] = {tables.descriptorSet(), set_};
   vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_);
@@ -162,15 +162,8 @@ Status AirVolume::record(VkCommandBuffer commands, const Tables& tables, const S
   for (engine::Image& image : images_) barriers.image(image, kSampled);
   status = barriers.record(device_, commands);
   if (status != Status::Ok) return status;
-  tablesId_ = tables.id();
-  std::copy_n(camera.position_m, 3, position_);
-  std::copy_n(draw.sun.direction, 3, sun_);
+  recorded_.set(tables, draw);
   return Status::Ok;
-}
-
-bool AirVolume::serves(const Tables& tables, const SkyDraw& draw) const {
-  return tablesId_ == tables.id() && std::equal(position_, position_ + 3, draw.camera.position_m) &&
-         std::equal(sun_, sun_ + 3, draw.sun.direction);
 }
 
 Status AirVolume::assertReadable() const {

@@ -30,7 +30,9 @@ class AirVolume {
   /// fragment and compute shaders.
   Status record(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw);
   /// Whether the volume, as recorded last, is what this draw looks into.
-  bool serves(const Tables& tables, const SkyDraw& draw) const;
+  bool serves(const Tables& tables, const SkyDraw& draw) const {
+    return recorded_.is(tables, draw);
+  }
 
   /// 3D, for ALPENGLOW_AIR_BINDING + i, with Resources::sampler().
   const engine::Image& image(uint32_t i) const { return images_[i]; }
@@ -54,10 +56,7 @@ class AirVolume {
   VkDescriptorSet set_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
-
-  uint64_t tablesId_ = 0;  ///< 0: nothing recorded yet.
-  double position_[3] = {};
-  double sun_[3] = {};
+  RecordedFor recorded_;
 };
 
 }  // namespace alpenglow::sky

@@ -33,6 +33,13 @@ Status checkSceneDepth(const engine::Device& device, const ViewDesc& desc) {
                        scene.extent.width, scene.extent.height, static_cast<uint32_t>(desc.samples),
                        static_cast<uint32_t>(desc.projection));
   }
+  if ((device.formatProperties(desc.colorFormat).optimalTilingFeatures &
+       VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) == 0) {
+    return device.fail(Status::Unsupported, VK_SUCCESS,
+                       "ViewDesc::colorFormat is VkFormat %d, which this device can't blend, but "
+                       "aerial perspective is blended over ViewDesc::sceneDepth's picture.",
+                       static_cast<int>(desc.colorFormat));
+  }
   return Status::Ok;
 }
 
@@ -324,26 +331,18 @@ Status View::recordSlice(VkCommandBuffer commands, const Tables& tables, const S
 }
 
 Status View::recordSky(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw) {
-  Status status = Status::Ok;
   const bool fromSlice = slice_ != nullptr && slice_->serves(tables, draw);
-  if (fromSlice) status = slice_->assertReadable();
+  Status status = fromSlice ? slice_->assertReadable() : Status::Ok;
   if (fromSlice && status == Status::Ok && volume_ != nullptr) status = volume_->assertReadable();
   if (status != Status::Ok) return status;
 
   const engine::Dispatch& vk = device_.vk();
   const sky::SkyConstants constants = sky::makeConstants(tables.parameters(), desc_, draw);
-  const VkRect2D& area = draw.viewport;
-  const VkViewport viewport = {static_cast<float>(area.offset.x),
-                               static_cast<float>(area.offset.y),
-                               static_cast<float>(area.extent.width),
-                               static_cast<float>(area.extent.height),
-                               0.0f,
-                               1.0f};
-  vk.CmdSetViewport(commands, 0, 1, &viewport);
+  engine::setArea(device_, commands, draw.viewport);  // the parts set scissors of their own
   bindSets(commands, tables);
   vk.CmdPushConstants(commands, layout_, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,
                       &constants);
-  drawParts(commands, sky::cut(tables.parameters(), desc_, draw), area.offset,
+  drawParts(commands, sky::cut(tables.parameters(), desc_, draw), draw.viewport.offset,
             fromSlice ? slicePipelines_ : pipelines_);
   return Status::Ok;
 }

@@ -38,6 +38,17 @@ constexpr VkDescriptorSetLayoutBinding kBindings[2] = {
 
 }  // namespace
 
+void RecordedFor::set(const Tables& tables, const SkyDraw& draw) {
+  tablesId_ = tables.id();
+  std::copy_n(draw.camera.position_m, 3, position_);
+  std::copy_n(draw.sun.direction, 3, sun_);
+}
+
+bool RecordedFor::is(const Tables& tables, const SkyDraw& draw) const {
+  return tablesId_ == tables.id() && std::equal(position_, position_ + 3, draw.camera.position_m) &&
+         std::equal(sun_, sun_ + 3, draw.sun.direction);
+}
+
 VkExtent3D SkySlice::extentFor(const TableDesc& desc) {
   return desc.solver == Solver::Moments
              ? kMomentSlice
@@ -159,15 +170,8 @@ Status SkySlice::record(VkCommandBuffer commands, const Tables& tables, const Sk
   for (uint32_t i = 0; i < count_; ++i) barriers.image(images_[i], engine::kFragmentSampled);
   status = barriers.record(device_, commands);
   if (status != Status::Ok) return status;
-  tablesId_ = tables.id();
-  std::copy_n(camera.position_m, 3, position_);
-  std::copy_n(draw.sun.direction, 3, sun_);
+  recorded_.set(tables, draw);
   return Status::Ok;
-}
-
-bool SkySlice::serves(const Tables& tables, const SkyDraw& draw) const {
-  return tablesId_ == tables.id() && std::equal(position_, position_ + 3, draw.camera.position_m) &&
-         std::equal(sun_, sun_ + 3, draw.sun.direction);
 }
 
 Status SkySlice::assertReadable() const {

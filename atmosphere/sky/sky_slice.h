@@ -21,6 +21,18 @@ physics_f64::SliceView sliceView(const Parameters& parameters, double altitude);
 /// no azimuth is the sun's, and any will do.
 void sunAzimuth(const SkyDraw& draw, double out[3]);
 
+/// What something was recorded for last: tables, and a camera's position and sun.
+class RecordedFor {
+ public:
+  void set(const Tables& tables, const SkyDraw& draw);
+  bool is(const Tables& tables, const SkyDraw& draw) const;
+
+ private:
+  uint64_t tablesId_ = 0;  ///< 0: nothing yet.
+  double position_[3] = {};
+  double sun_[3] = {};
+};
+
 /// Owned by a view; externally synchronised.
 class SkySlice {
  public:
@@ -35,7 +47,9 @@ class SkySlice {
   /// Both have been checked. Fills the slice and leaves it readable by fragment shaders.
   Status record(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw);
   /// Whether the slice, as recorded last, is what this draw looks into.
-  bool serves(const Tables& tables, const SkyDraw& draw) const;
+  bool serves(const Tables& tables, const SkyDraw& draw) const {
+    return recorded_.is(tables, draw);
+  }
   /// Whether there is a slice for the draw's camera: with moments always, else inside the
   /// atmosphere.
   static bool possible(const Tables& tables, const SkyDraw& draw);
@@ -71,10 +85,7 @@ class SkySlice {
   VkDescriptorSet set_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
-
-  uint64_t tablesId_ = 0;  ///< 0: nothing recorded yet.
-  double position_[3] = {};
-  double sun_[3] = {};
+  RecordedFor recorded_;
 };
 
 }  // namespace alpenglow::sky

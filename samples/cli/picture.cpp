@@ -26,25 +26,12 @@ SkyDraw describeDraw(const io::Scene& scene) {
 
 void recordPicture(Session* session, VkCommandBuffer commands, const headless::Image& target,
                    View* view, const Tables* tables, const SkyDraw& draw) {
-  VkRenderingAttachmentInfo color = {};
-  color.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-  color.imageView = target.view();
-  color.imageLayout = samples::kColorDrawn.layout;
-  color.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-  color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-  VkRenderingInfo rendering = {};
-  rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-  rendering.renderArea = draw.viewport;
-  rendering.layerCount = 1;
-  rendering.colorAttachmentCount = 1;
-  rendering.pColorAttachments = &color;
   const FrameInfo frame = session->device().frame();
   const samples::Gpu gpu = session->gpu();
   session->check(recordSkySlice(view, commands, frame, tables, draw));
   gpu.barrier(commands, target, samples::kUndefined, samples::kColorDrawn);
-  session->function<PFN_vkCmdBeginRendering>("vkCmdBeginRendering")(commands, &rendering);
-  session->check(recordSky(view, commands, frame, tables, draw));
-  session->function<PFN_vkCmdEndRendering>("vkCmdEndRendering")(commands);
+  gpu.render(commands, target, draw.viewport, VK_ATTACHMENT_LOAD_OP_CLEAR, nullptr,
+             [&] { session->check(recordSky(view, commands, frame, tables, draw)); });
   gpu.barrier(commands, target, samples::kColorDrawn, samples::kCopySource);
 }
 

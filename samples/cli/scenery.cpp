@@ -66,25 +66,12 @@ void Scenery::drawShafts(View* view, const Tables* tables, const SkyDraw& draw) 
 
 void Scenery::drawInto(const headless::Image& target, const SkyDraw& draw, const char* pass,
                        bool first, const std::function<void(VkCommandBuffer)>& record) {
-  VkRenderingAttachmentInfo color = {};
-  color.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-  color.imageView = target.view();
-  color.imageLayout = samples::kColorDrawn.layout;
-  color.loadOp = first ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD;
-  color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-  VkRenderingInfo rendering = {};
-  rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-  rendering.renderArea = draw.viewport;
-  rendering.layerCount = 1;
-  rendering.colorAttachmentCount = 1;
-  rendering.pColorAttachments = &color;
-  rendering.pDepthAttachment = landscape_.depthAttachment();
   session_->run([&](VkCommandBuffer commands) {
     gpu_.barrier(commands, target, first ? samples::kUndefined : samples::kColorDrawn,
                  samples::kColorDrawn);
-    session_->function<PFN_vkCmdBeginRendering>("vkCmdBeginRendering")(commands, &rendering);
-    record(commands);
-    session_->function<PFN_vkCmdEndRendering>("vkCmdEndRendering")(commands);
+    gpu_.render(commands, target, draw.viewport,
+                first ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
+                landscape_.depthAttachment(), [&] { record(commands); });
     return std::string(pass);
   });
 }

@@ -24,8 +24,9 @@ const char* nameOf(SceneShafts method) {
 }  // namespace
 
 CapabilityFlags ShaftChoice::needs() const {
-  const bool asked = method != SceneShafts::Off && method != SceneShafts::Auto;
-  return asked ? kCapabilityShafts : CapabilityFlags{0};
+  if (method == SceneShafts::Off || method == SceneShafts::Auto) return 0;
+  return method == SceneShafts::Paper ? kCapabilityShafts | kCapabilityShadowVolumes
+                                      : CapabilityFlags{kCapabilityShafts};
 }
 
 CapabilityFlags ShaftChoice::wishes() const {

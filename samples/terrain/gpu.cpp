@@ -127,6 +127,27 @@ Owned<VkPipelineLayout> Gpu::pipelineLayout(std::span<const VkDescriptorSetLayou
   return {*device_, "vkDestroyPipelineLayout", made};
 }
 
+void Gpu::render(VkCommandBuffer commands, const headless::Image& target, const VkRect2D& area,
+                 VkAttachmentLoadOp load, const VkRenderingAttachmentInfo* depth,
+                 const std::function<void()>& record) const {
+  VkRenderingAttachmentInfo color = {};
+  color.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+  color.imageView = target.view();
+  color.imageLayout = kColorDrawn.layout;
+  color.loadOp = load;
+  color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+  VkRenderingInfo rendering = {};
+  rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+  rendering.renderArea = area;
+  rendering.layerCount = 1;
+  rendering.colorAttachmentCount = 1;
+  rendering.pColorAttachments = &color;
+  rendering.pDepthAttachment = depth;
+  function<PFN_vkCmdBeginRendering>("vkCmdBeginRendering")(commands, &rendering);
+  record();
+  function<PFN_vkCmdEndRendering>("vkCmdEndRendering")(commands);
+}
+
 void Gpu::barrier(VkCommandBuffer commands, const headless::Image& image, const ImageState& from,
                   const ImageState& to) const {
   VkImageMemoryBarrier2 barrier = {};

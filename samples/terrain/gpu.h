@@ -95,6 +95,11 @@ class Gpu {
   headless::Image texture(const io::AlbedoMap& map) const;
   /// The same of one texel of 32-bit floats.
   headless::Image texel(const float rgba[4]) const;
+  /// Records what `record` records in a rendering scope over `area` of the target, which is cleared
+  /// first or kept; `depth` may be null.
+  void render(VkCommandBuffer commands, const headless::Image& target, const VkRect2D& area,
+              VkAttachmentLoadOp load, const VkRenderingAttachmentInfo* depth,
+              const std::function<void()>& record) const;
   /// Linear, with mip levels, clamped in v.
   Owned<VkSampler> sampler(VkSamplerAddressMode modeU) const;
 

@@ -14,11 +14,9 @@ namespace {
 
 using test::box;
 using test::icosphere;
+using test::kFar;
 using test::Mesh;
 using test::raysOf;
-
-/// Where the planet's surface is, rounding is 1e-9 m.
-const Vector kFar(3.1e6, -2.2e6, 5.1e6);
 
 Vector anyDirection(Random& random) {
   return around(Vector(0, 0, 1), 2.0 * random.uniform() - 1.0, random.uniform());

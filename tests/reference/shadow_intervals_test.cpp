@@ -10,10 +10,10 @@ namespace {
 
 using test::box;
 using test::icosphere;
+using test::kFar;
 using test::Mesh;
 using test::raysOf;
 
-const Vector kFar(3.1e6, -2.2e6, 5.1e6);
 const Vector kX(1, 0, 0), kZ(0, 0, 1);
 
 void expectIntervals(const std::vector<RayInterval>& actual,

@@ -12,6 +12,9 @@
 
 namespace alpenglow::reference::test {
 
+/// Where the planet's surface is, rounding is 1e-9 m.
+inline const Vector kFar(3.1e6, -2.2e6, 5.1e6);
+
 struct Mesh {
   std::vector<double> positions;
   std::vector<uint32_t> indices;

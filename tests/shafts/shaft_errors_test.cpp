@@ -10,16 +10,6 @@ namespace {
 
 constexpr VkExtent2D kExtent = {24, 16};
 
-bool hasAll(const std::string& text, const std::string& parts) {
-  size_t begin = 0;
-  while (begin <= parts.size()) {
-    const size_t end = std::min(parts.find('|', begin), parts.size());
-    if (text.find(parts.substr(begin, end - begin)) == std::string::npos) return false;
-    begin = end + 1;
-  }
-  return !text.empty() && text.back() == '.' && text.find('\n') == std::string::npos;
-}
-
 class ShaftErrorsTest : public ShaftTest {
  protected:
   void SetUp() override {
@@ -212,6 +202,40 @@ TEST_F(ShaftErrorsTest, BadCallsRecordNothing) {
   EXPECT_EQ(end.dispatches, start.dispatches);
   const ShaftPicture after = draw(setup_, draw_);
   EXPECT_EQ(after.light.data, before.light.data);
+}
+
+TEST_F(ShaftErrorsTest, AirNeedsAFormatThatBlends) {
+  ViewDesc desc;
+  desc.colorFormat = VK_FORMAT_R32G32B32A32_UINT;
+  desc.sceneDepth = rigOf(setup_, kExtent).scene;
+  View* view = nullptr;
+  expectRefused(createView(context(), desc, &view), Status::Unsupported, "VkFormat 107|blend");
+}
+
+TEST_F(ShaftErrorsTest, OnlyThePaperNeedsGeometryShaders) {
+  Requirements exact, paper;
+  const auto query = [&](CapabilityFlags wanted, Requirements* out) {
+    return queryRequirements(device().getInstanceProcAddr(), device().instance(),
+                             device().physicalDevice(), wanted, out, nullptr, nullptr);
+  };
+  ASSERT_EQ(query(kCapabilityShafts, &exact), Status::Ok);
+  ASSERT_EQ(query(kCapabilityShafts | kCapabilityShadowVolumes, &paper), Status::Ok);
+  EXPECT_EQ(exact.features.geometryShader, VK_FALSE);
+  EXPECT_EQ(exact.features.depthClamp, VK_TRUE);
+  EXPECT_EQ(paper.features.geometryShader, VK_TRUE);
+
+  ContextDesc desc = contextDesc();
+  desc.capabilities = kCapabilitySky | kCapabilityAir | kCapabilityShafts;
+  Context* without = nullptr;
+  ASSERT_EQ(createContext(desc, &without), Status::Ok);
+  ShaftsDesc shafts = goodDesc(rigOf(setup_, kExtent));
+  Shafts* made = nullptr;
+  EXPECT_EQ(createShafts(without, shafts, &made), Status::Ok) << lastDiagnostic();
+  destroyShafts(made, FrameInfo{});
+  shafts.method = ShaftMethod::Paper;
+  EXPECT_EQ(createShafts(without, shafts, &made), Status::Unsupported);
+  EXPECT_TRUE(hasAll(lastDiagnostic(), "Paper|kCapabilityShadowVolumes")) << lastDiagnostic();
+  destroyContext(without);
 }
 
 TEST_F(ShaftErrorsTest, AMapComesFirst) {

@@ -19,16 +19,6 @@ struct BadDraw {
   std::function<void(SkyDraw&)> spoil;
 };
 
-bool hasAll(const std::string& text, const std::string& parts) {
-  size_t begin = 0;
-  while (begin <= parts.size()) {
-    const size_t end = std::min(parts.find('|', begin), parts.size());
-    if (text.find(parts.substr(begin, end - begin)) == std::string::npos) return false;
-    begin = end + 1;
-  }
-  return !text.empty() && text.back() == '.';
-}
-
 TEST_F(SkyTest, BadDrawsAreRefusedWithTheValue) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -156,7 +156,8 @@ Context* SkyTest::context() {
   s.vulkan = std::make_unique<VulkanWrap>(device().getInstanceProcAddr());
   ContextDesc desc = device().contextDesc();
   desc.getInstanceProcAddr = s.vulkan->getInstanceProcAddr();
-  desc.capabilities = kCapabilityBake | kCapabilitySky | kCapabilityAir | kCapabilityShafts;
+  desc.capabilities = kCapabilityBake | kCapabilitySky | kCapabilityAir | kCapabilityShafts |
+                      kCapabilityShadowVolumes;
   desc.diagnostic = [](void*, const Diagnostic& diagnostic) {
     shared().message = diagnostic.message;
   };
@@ -245,6 +246,16 @@ Picture SkyTest::picture(View* with, Tables* baked, const SkyDraw& draw,
 
 std::vector<ProbeAnswer> SkyTest::probeAll(const std::vector<ProbeQuery>& queries, Tables* with) {
   return probe(device(), context(), with != nullptr ? with : tables(), queries);
+}
+
+bool hasAll(const std::string& text, const std::string& parts) {
+  size_t begin = 0;
+  while (begin <= parts.size()) {
+    const size_t end = std::min(parts.find('|', begin), parts.size());
+    if (text.find(parts.substr(begin, end - begin)) == std::string::npos) return false;
+    begin = end + 1;
+  }
+  return !text.empty() && text.back() == '.' && text.find('\n') == std::string::npos;
 }
 
 std::string badValue(const Picture& picture) {

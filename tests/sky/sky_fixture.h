@@ -162,6 +162,9 @@ inline std::string solverName(const ::testing::TestParamInfo<Solver>& info) {
   return info.param == Solver::Moments ? "Moments" : "Standard";
 }
 
+/// Whether a text is one sentence with all of these parts, which are separated by '|'.
+bool hasAll(const std::string& text, const std::string& parts);
+
 /// Every value of `picture` that is not finite, or negative: a sentence with the first, or "".
 std::string badValue(const Picture& picture);
 

@@ -11,11 +11,12 @@ struct Context;  ///< Opaque.
 
 /// What the host wants to do. Bits; ask for what you use, each has its own requirements.
 enum Capability : uint32_t {
-  kCapabilityBake = 1u << 0,    ///< Compute shaders that fill the tables, and probe queries.
-  kCapabilitySky = 1u << 1,     ///< Graphics pipelines that draw sky and ground.
-  kCapabilityAir = 1u << 2,     ///< Aerial perspective over a host's scene: dualSrcBlend.
-  kCapabilityShafts = 1u << 3,  ///< Light shafts: geometryShader, depthClamp, shaderClipDistance,
-                                ///< independentBlend.
+  kCapabilityBake = 1u << 0,           ///< Compute shaders that fill the tables, and probe queries.
+  kCapabilitySky = 1u << 1,            ///< Graphics pipelines that draw sky and ground.
+  kCapabilityAir = 1u << 2,            ///< Aerial perspective over a host's scene: dualSrcBlend.
+  kCapabilityShafts = 1u << 3,         ///< Light shafts: depthClamp.
+  kCapabilityShadowVolumes = 1u << 4,  ///< ShaftMethod::Paper, with kCapabilityShafts:
+                                       ///< geometryShader, shaderClipDistance, independentBlend.
 };
 using CapabilityFlags = uint32_t;
 

@@ -13,7 +13,8 @@ enum class ShaftMethod : uint32_t {
           ///< lit stretches, without samples along the ray; exact but for the map's texels. Single
           ///< scattering loses its light, multiple is dimmed. Any casters. docs/shafts.md.
   Paper,  ///< Shadow volumes and one length a pixel, as Bruneton & Neyret 2008, section 5: closed
-          ///< casters with adjacency, geometry shaders; all orders of scattering lose their light.
+          ///< casters with adjacency, kCapabilityShadowVolumes; all orders of scattering lose their
+          ///< light.
   March,  ///< Samples of the map from the sun along each ray; else as Exact.
 };
 

@@ -1,7 +1,8 @@
 // Light of the air between a camera and any point that it sees, from the air volume of this frame: a few
-// fetches where alpenglowRadianceToPoint integrates. The library's own passes read it; its set is not public. Include it after alpenglow/atmosphere.glsl (tables of
-// Solver::Moments). The volume's images are combined image samplers at set ALPENGLOW_AIR_SET (1 unless
-// defined before), bindings ALPENGLOW_AIR_BINDING (0) and the next two.
+// fetches where alpenglowRadianceToPoint integrates. The library's own passes read it; its set is not public.
+// Include it after alpenglow/atmosphere.glsl (tables of Solver::Moments). The volume's images are combined
+// image samplers at set ALPENGLOW_AIR_SET (1 unless defined before), bindings ALPENGLOW_AIR_BINDING (0) and
+// the next two.
 #ifndef ALPENGLOW_AIR_VOLUME
 #define ALPENGLOW_AIR_VOLUME
 

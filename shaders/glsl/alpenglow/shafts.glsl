@@ -145,12 +145,17 @@ bool alpenglowInShadow(vec3 position) {
   return at.z > first;
 }
 
-// Where the ray of a pixel begins: at the camera, or on the plane through it.
-vec3 alpenglowRayOrigin(vec2 fragCoord) {
+// A pixel's way from the middle of the picture: forward + offset is its ray, or (orthographic) the offset its
+// ray's origin.
+vec3 alpenglowPixelOffset(vec2 fragCoord) {
   vec2 ndc = (fragCoord - vec2(alpenglowShaft.rightOffsetX.w, alpenglowShaft.downOffsetY.w)) *
                  alpenglowShaft.pixels.xy - 1.0;
-  vec3 across = ndc.x * alpenglowShaft.rightOffsetX.xyz + ndc.y * alpenglowShaft.downOffsetY.xyz;
-  return alpenglowShaft.pixels.w > 0.5 ? across : vec3(0.0);
+  return ndc.x * alpenglowShaft.rightOffsetX.xyz + ndc.y * alpenglowShaft.downOffsetY.xyz;
+}
+
+// Where the ray of a pixel begins: at the camera, or on the plane through it.
+vec3 alpenglowRayOrigin(vec2 fragCoord) {
+  return alpenglowShaft.pixels.w > 0.5 ? alpenglowPixelOffset(fragCoord) : vec3(0.0);
 }
 
 // The share of the sun that the map says a point sees, over three texels either way: about as soft an edge as

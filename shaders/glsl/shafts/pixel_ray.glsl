@@ -3,9 +3,7 @@
 #include "sky/observer.glsl"
 
 Ray pixelRay(vec2 fragCoord, out vec3 view) {
-  vec2 ndc = (fragCoord - vec2(alpenglowShaft.rightOffsetX.w, alpenglowShaft.downOffsetY.w)) *
-                 alpenglowShaft.pixels.xy - 1.0;
-  vec3 across = ndc.x * alpenglowShaft.rightOffsetX.xyz + ndc.y * alpenglowShaft.downOffsetY.xyz;
+  vec3 across = alpenglowPixelOffset(fragCoord);
   vec3 up = alpenglowShaft.upAltitude.xyz;
   float altitude = alpenglowShaft.upAltitude.w;
   view = alpenglowShaft.forwardNear.xyz;

@@ -11,7 +11,7 @@ layout(set = 1, binding = 0, ALPENGLOW_STORAGE) uniform writeonly image3D airFir
 layout(set = 1, binding = 1, ALPENGLOW_STORAGE) uniform writeonly image3D airSecond;
 layout(set = 1, binding = 2, ALPENGLOW_STORAGE) uniform writeonly image3D airThird;
 
-// Mirrored by AirConstants in atmosphere/sky/air_volume.cpp.
+// Mirrored by VolumeConstants in atmosphere/sky/air_volume.cpp.
 layout(push_constant) uniform Camera {
   float altitude;
   float muS;
