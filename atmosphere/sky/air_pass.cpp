@@ -1,12 +1,8 @@
 // Aerial perspective of a view: the part of View that draws over a host's scene.
-#include <alpenglow/shaders/air_fragment.h>
-#include <alpenglow/shaders/air_fragment_shafts.h>
-#include <alpenglow/shaders/air_fragment_standard.h>
-#include <alpenglow/shaders/air_fragment_volume.h>
-#include <alpenglow/shaders/air_fragment_volume_shafts.h>
 #include <alpenglow/shaders/sky_vertex.h>
 
 #include "atmosphere/sky/air_set.h"
+#include "atmosphere/sky/shader_choice.h"
 #include "atmosphere/sky/sky_pass.h"
 
 namespace alpenglow {
@@ -17,7 +13,7 @@ Status View::makeAir() {
   const bool sliced = slice_ != nullptr && desc_.solver == Solver::Moments &&
                       desc_.projection != Projection::Orthographic;
   if (status != Status::Ok || !sliced) return status;
-  status = sky::AirVolume::create(resources_, &volume_);
+  status = sky::AirVolume::create(resources_, desc_.without, &volume_);
   if (status != Status::Ok) return status;
   return sky::createAirSet(resources_, *volume_, airLayout_, &airPool_, &airSet_);
 }
@@ -35,19 +31,7 @@ Status View::makeAirPipeline(bool fromVolume, VkPipeline* out) {
   const bool shafts = shafts_.layout != VK_NULL_HANDLE;
   engine::GraphicsPipelineDesc desc;
   desc.vertex = {s::kSkyVertex, sizeof s::kSkyVertex, "sky.vert"};
-  if (desc_.solver == Solver::Standard) {
-    desc.fragment = {s::kAirFragmentStandard, sizeof s::kAirFragmentStandard, "air (standard)"};
-  } else if (fromVolume) {
-    desc.fragment =
-        shafts
-            ? engine::Shader{s::kAirFragmentVolumeShafts, sizeof s::kAirFragmentVolumeShafts,
-                             "air (volume, shafts)"}
-            : engine::Shader{s::kAirFragmentVolume, sizeof s::kAirFragmentVolume, "air (volume)"};
-  } else {
-    desc.fragment =
-        shafts ? engine::Shader{s::kAirFragmentShafts, sizeof s::kAirFragmentShafts, "air (shafts)"}
-               : engine::Shader{s::kAirFragment, sizeof s::kAirFragment, "air"};
-  }
+  desc.fragment = sky::airShader(desc_.solver, desc_.without, fromVolume, shafts);
   const engine::SpecConstant constants[] = {
       engine::specFloat(4, reversed ? 0.0f : 1.0f),
       engine::specBool(6, desc_.projection == Projection::Orthographic),

@@ -1,13 +1,11 @@
 #include "atmosphere/sky/air_volume.h"
 
-#include <alpenglow/shaders/air_volume_rgba16f.h>
-#include <alpenglow/shaders/air_volume_rgba32f.h>
-
 #include <algorithm>
 #include <cmath>
 #include <new>
 
 #include "atmosphere/sky/parts.h"
+#include "atmosphere/sky/shader_choice.h"
 
 namespace alpenglow::sky {
 namespace {
@@ -48,9 +46,9 @@ AirLookup airLookup(const Parameters& parameters, const SkyDraw& draw) {
   return lookup;
 }
 
-Status AirVolume::create(bake::Resources& resources, AirVolume** out) {
+Status AirVolume::create(bake::Resources& resources, EffectFlags without, AirVolume** out) {
   *out = nullptr;
-  auto* volume = new (std::nothrow) AirVolume(resources);
+  auto* volume = new (std::nothrow) AirVolume(resources, without);
   if (volume == nullptr) {
     return resources.device().fail(Status::OutOfHostMemory, VK_SUCCESS,
                                    "An air volume found no host memory.");
@@ -118,17 +116,13 @@ Status AirVolume::makeSet() {
 }
 
 Status AirVolume::makePipeline() {
-  namespace s = alpenglow::shaders;
   const VkDescriptorSetLayout sets[] = {resources_.tableLayout(), setLayout_};
   const VkPushConstantRange range = {VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof(VolumeConstants)};
   const Status status =
       engine::createPipelineLayout(device_, sets, 2, &range, 1, "Alpenglow air volume", &layout_);
   if (status != Status::Ok) return status;
   engine::ComputePipelineDesc desc;
-  desc.shader =
-      format_ == TableFormat::Float
-          ? engine::Shader{s::kAirVolumeFloat, sizeof s::kAirVolumeFloat, "air_volume (rgba32f)"}
-          : engine::Shader{s::kAirVolumeHalf, sizeof s::kAirVolumeHalf, "air_volume (rgba16f)"};
+  desc.shader = volumeShader(Solver::Moments, without_, format_);
   desc.layout = layout_;
   return engine::createComputePipeline(device_, desc, &pipeline_);
 }

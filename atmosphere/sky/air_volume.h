@@ -23,7 +23,7 @@ class AirVolume {
  public:
   static constexpr uint32_t kImages = 3;
 
-  static Status create(bake::Resources& resources, AirVolume** out);
+  static Status create(bake::Resources& resources, EffectFlags without, AirVolume** out);
   static void destroy(AirVolume* volume, const FrameInfo& frame);
 
   /// Both have been checked; tables of Solver::Moments. Fills the volume and leaves it readable by
@@ -40,14 +40,15 @@ class AirVolume {
   uint64_t bytes() const;  ///< Of its images.
 
  private:
-  explicit AirVolume(bake::Resources& resources)
-      : resources_(resources), device_(resources.device()) {}
+  AirVolume(bake::Resources& resources, EffectFlags without)
+      : resources_(resources), device_(resources.device()), without_(without) {}
   Status make();
   Status makeSet();
   Status makePipeline();
 
   bake::Resources& resources_;
   engine::Device& device_;
+  EffectFlags without_;  ///< As the tables.
   TableFormat format_ = TableFormat::Half;
   engine::Image images_[kImages];
   engine::MemoryBlock block_;

@@ -1,13 +1,11 @@
 #include "atmosphere/sky/probe_pass.h"
 
-#include <alpenglow/shaders/probe.h>
-#include <alpenglow/shaders/probe_standard.h>
-
 #include <cfloat>
 #include <cmath>
 #include <new>
 
 #include "atmosphere/model/query.h"
+#include "atmosphere/sky/shader_choice.h"
 
 namespace alpenglow::sky {
 namespace {
@@ -104,12 +102,9 @@ Status ProbePass::pipeline(const TableDesc& tables, VkPipeline* out) {
   VkPipeline& slot = pipelines_[moments ? 0 : 1 + static_cast<uint32_t>(tables.mie)];
   Status status = Status::Ok;
   if (slot == VK_NULL_HANDLE) {
-    namespace s = alpenglow::shaders;
     const engine::SpecConstant packed = engine::specBool(0, tables.mie == MieStorage::Packed);
     engine::ComputePipelineDesc desc;
-    desc.shader = moments ? engine::Shader{s::kProbe, sizeof s::kProbe, "probe.comp"}
-                          : engine::Shader{s::kProbeStandard, sizeof s::kProbeStandard,
-                                           "probe.comp (standard)"};
+    desc.shader = probeShader(tables.solver, tables.without);
     desc.layout = layout_;
     desc.constants = &packed;
     desc.constantCount = 1;

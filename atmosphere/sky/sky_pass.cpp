@@ -1,21 +1,11 @@
 #include "atmosphere/sky/sky_pass.h"
 
-#include <alpenglow/shaders/sky_fragment.h>
-#include <alpenglow/shaders/sky_fragment_map.h>
-#include <alpenglow/shaders/sky_fragment_map_shafts.h>
-#include <alpenglow/shaders/sky_fragment_map_slice.h>
-#include <alpenglow/shaders/sky_fragment_map_slice_shafts.h>
-#include <alpenglow/shaders/sky_fragment_map_slice_standard.h>
-#include <alpenglow/shaders/sky_fragment_map_standard.h>
-#include <alpenglow/shaders/sky_fragment_shafts.h>
-#include <alpenglow/shaders/sky_fragment_slice.h>
-#include <alpenglow/shaders/sky_fragment_slice_shafts.h>
-#include <alpenglow/shaders/sky_fragment_slice_standard.h>
-#include <alpenglow/shaders/sky_fragment_standard.h>
 #include <alpenglow/shaders/sky_vertex.h>
 
 #include <bit>
 #include <new>
+
+#include "atmosphere/sky/shader_choice.h"
 
 namespace alpenglow {
 namespace sky {
@@ -221,41 +211,14 @@ Status View::makeSet(const VkDescriptorSetLayoutBinding* bindings, uint32_t coun
   return writer.flush(device_);
 }
 
-namespace {
-
-#define ALPENGLOW_SHADER(name) \
-  engine::Shader { shaders::name, sizeof shaders::name, #name }
-
-/// By map, slice and shafts.
-engine::Shader momentsShader(bool map, bool slice, bool shafts) {
-  const engine::Shader shaders[2][2][2] = {
-      {{ALPENGLOW_SHADER(kSkyFragment), ALPENGLOW_SHADER(kSkyFragmentShafts)},
-       {ALPENGLOW_SHADER(kSkyFragmentSlice), ALPENGLOW_SHADER(kSkyFragmentSliceShafts)}},
-      {{ALPENGLOW_SHADER(kSkyFragmentMap), ALPENGLOW_SHADER(kSkyFragmentMapShafts)},
-       {ALPENGLOW_SHADER(kSkyFragmentMapSlice), ALPENGLOW_SHADER(kSkyFragmentMapSliceShafts)}}};
-  return shaders[map][slice][shafts];
-}
-
-engine::Shader standardShader(bool map, bool slice) {
-  const engine::Shader shaders[2][2] = {
-      {ALPENGLOW_SHADER(kSkyFragmentStandard), ALPENGLOW_SHADER(kSkyFragmentSliceStandard)},
-      {ALPENGLOW_SHADER(kSkyFragmentMapStandard), ALPENGLOW_SHADER(kSkyFragmentMapSliceStandard)}};
-  return shaders[map][slice];
-}
-
-#undef ALPENGLOW_SHADER
-
-}  // namespace
-
 Status View::makePipelines(bool slice, VkPipeline* pipelines) {
   namespace s = alpenglow::shaders;
   const bool reversed = desc_.depth == DepthConvention::Reversed;
   engine::GraphicsPipelineDesc desc;
   desc.vertex = {s::kSkyVertex, sizeof s::kSkyVertex, "sky.vert"};
   const bool map = desc_.groundAlbedo.view != VK_NULL_HANDLE;
-  desc.fragment = desc_.solver == Solver::Moments
-                      ? momentsShader(map, slice, shafts_.layout != VK_NULL_HANDLE)
-                      : standardShader(map, slice);
+  desc.fragment =
+      sky::skyShader(desc_.solver, desc_.without, {map, slice, shafts_.layout != VK_NULL_HANDLE});
   desc.layout = layout_;
   desc.colors[0].format = desc_.colorFormat;
   desc.depthFormat = desc_.depthFormat;

@@ -1,12 +1,9 @@
 #include "atmosphere/sky/sky_slice.h"
 
-#include <alpenglow/shaders/sky_slice_rgba16f.h>
-#include <alpenglow/shaders/sky_slice_rgba32f.h>
-#include <alpenglow/shaders/sky_slice_standard_rgba16f.h>
-#include <alpenglow/shaders/sky_slice_standard_rgba32f.h>
-
 #include <algorithm>
 #include <new>
+
+#include "atmosphere/sky/shader_choice.h"
 
 namespace alpenglow::sky {
 namespace {
@@ -18,19 +15,6 @@ struct SliceConstants {
 
 constexpr VkExtent3D kMomentSlice = {physics_f32::kSliceColumns, physics_f32::kSliceRows, 1};
 static_assert(kMomentSlice.width % 8 == 0 && kMomentSlice.height % 8 == 0);
-
-engine::Shader sliceShader(Solver solver, TableFormat format) {
-  namespace s = alpenglow::shaders;
-  const bool wide = format == TableFormat::Float;
-  if (solver == Solver::Moments) {
-    return wide ? engine::Shader{s::kSkySliceFloat, sizeof s::kSkySliceFloat, "sky_slice (rgba32f)"}
-                : engine::Shader{s::kSkySliceHalf, sizeof s::kSkySliceHalf, "sky_slice (rgba16f)"};
-  }
-  return wide ? engine::Shader{s::kSkySliceStandardFloat, sizeof s::kSkySliceStandardFloat,
-                               "sky_slice_standard (rgba32f)"}
-              : engine::Shader{s::kSkySliceStandardHalf, sizeof s::kSkySliceStandardHalf,
-                               "sky_slice_standard (rgba16f)"};
-}
 
 constexpr VkDescriptorSetLayoutBinding kBindings[2] = {
     {0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
@@ -126,7 +110,7 @@ Status SkySlice::makePipeline(TableFormat format) {
   if (status != Status::Ok) return status;
   const engine::SpecConstant packed = engine::specBool(0, mie_ == MieStorage::Packed);
   engine::ComputePipelineDesc desc;
-  desc.shader = sliceShader(solver_, format);
+  desc.shader = sliceShader(solver_, without_, format);
   desc.layout = layout_;
   desc.constants = &packed;
   desc.constantCount = solver_ == Solver::Standard ? 1 : 0;

@@ -65,6 +65,7 @@ class SkySlice {
       : resources_(resources),
         device_(resources.device()),
         solver_(desc.solver),
+        without_(desc.without),
         mie_(desc.mie),
         extent_(extentFor(desc)),
         count_(mie_ == MieStorage::Full ? 2 : 1) {}
@@ -75,6 +76,7 @@ class SkySlice {
   bake::Resources& resources_;
   engine::Device& device_;
   Solver solver_;
+  EffectFlags without_;
   MieStorage mie_;
   VkExtent3D extent_;
   uint32_t count_;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <alpenglow/context.h>
+#include <alpenglow/effects.h>
 #include <alpenglow/parameters.h>
 
 namespace alpenglow {
@@ -19,6 +20,11 @@ enum class MieStorage : uint32_t {
 enum class Solver : uint32_t {
   Moments,   ///< Light on nodes of (r, mu_s); rays are integrated: docs/moment-solver.md.
   Standard,  ///< The paper's Algorithm 4.1; tables of rays.
+  // Simpler models, each as its paper has it, to compare with: docs/models.md.
+  HoffmanPreetham,  ///< 2002: air of constant density, one event, in closed form. No table.
+  ONeil,            ///< 2005: one event, TableDesc::samples points along a ray.
+  Schafhitzel,      ///< 2007: one event, a table of (r, mu, mu_s) without the azimuth.
+  Hillaire,         ///< 2020: a sky-view table each frame, multiple scattering in 32 x 32 texels.
 };
 /// Points of the moment solver's curve of error against cost: docs/accuracy.md has both, measured.
 enum class Quality : uint32_t { Default, Draft, Low, Medium, High, Ultra };  ///< Default: Medium.
@@ -61,6 +67,14 @@ struct TableDesc {
   MomentSettings moments;              ///< Of Solver::Moments; beats the quality.
   MieStorage mie = MieStorage::Full;   ///< Of Solver::Standard.
   TableSizes sizes;                    ///< Of Solver::Standard.
+  /// Bits of kTableEffects: nothing is baked, allocated or compiled for these. Views and shaders
+  /// that read the tables are without the same. Of Solver::Moments. Default: none left out.
+  EffectFlags without = 0;
+  /// Of Solver::Moments: zenith angles of the sun, radians, seen from wherever light is asked for;
+  /// the tables reach beyond them as far as rays do. Both 0: any. Light of other suns is that of
+  /// the nearest that the tables hold.
+  double sunZenithFrom = 0.0, sunZenithTo = 0.0;
+  uint32_t samples = 0;  ///< Points of a ray, of Solver::ONeil (0: 10) and Hillaire (0: 32).
 };
 
 /// The settings that a quality level has for an atmosphere, by the rule of docs/accuracy.md, with

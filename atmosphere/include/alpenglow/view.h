@@ -61,6 +61,12 @@ struct ViewDesc {
   Solver solver = Solver::Moments;    ///< As the tables that will be drawn with.
   MieStorage mie = MieStorage::Full;  ///< The same; of Solver::Standard.
   GroundAlbedoMap groundAlbedo;
+  /// Bits of kTableEffects, those of the tables that will be drawn with; and of kViewEffects: no
+  /// pipeline is made for what the view is without, and a draw that would see it is refused.
+  EffectFlags without = 0;
+  /// Every recordSky and recordAir follows a recordSkySlice for it: no pipeline is made for others,
+  /// which are refused. Needs skySlice.
+  bool alwaysSliced = false;
   /// Tables whose shape a sky slice takes; null: the view has none. With a slice, recordSkySlice
   /// once a frame makes a pixel of recordSky much cheaper; of Solver::Standard, for cameras inside
   /// the atmosphere only.

@@ -1,0 +1,44 @@
+// What can be simulated, and left out: a plan (alpenglow/plan.h) decides it from what a scene calls
+// for; a host may too.
+#pragma once
+
+#include <cstdint>
+
+namespace alpenglow {
+inline namespace v1 {
+
+enum class Effect : uint32_t {
+  Rayleigh,            ///< Air molecules.
+  Mie,                 ///< Aerosols.
+  Absorption,          ///< The layer that only absorbs (ozone).
+  MultipleScattering,  ///< Paths of two events and more.
+  GroundReflection,    ///< Light that the ground sends back into the air.
+  GroundIrradiance,    ///< Sky light on surfaces; without it they are lit by the sun alone.
+  Ground,              ///< The planet's surface, drawn.
+  SunDisc,             ///< The sun's disc, drawn.
+  AerialPerspective,   ///< Air in front of a host's scene.
+  LightShafts,         ///< Shadows of casters in the air.
+  SpaceViews,          ///< Cameras above the top of the atmosphere, and pixels that see no air.
+  Twilight,            ///< The sun from the horizon down to 18 degrees below it.
+  Night,               ///< The sun lower than that.
+};
+inline constexpr uint32_t kEffectCount = 13;
+
+/// Bits of effects.
+using EffectFlags = uint32_t;
+constexpr EffectFlags effectBit(Effect effect) { return 1u << static_cast<uint32_t>(effect); }
+
+/// Those that tables hold: TableDesc::without.
+inline constexpr EffectFlags kTableEffects =
+    effectBit(Effect::Rayleigh) | effectBit(Effect::Mie) | effectBit(Effect::Absorption) |
+    effectBit(Effect::MultipleScattering) | effectBit(Effect::GroundReflection) |
+    effectBit(Effect::GroundIrradiance);
+/// Those that only views draw: ViewDesc::without has these besides.
+inline constexpr EffectFlags kViewEffects =
+    effectBit(Effect::Ground) | effectBit(Effect::SunDisc) | effectBit(Effect::SpaceViews);
+
+/// As files spell it: "ground_irradiance". Never null; "" past the end.
+const char* effectName(Effect effect);
+
+}  // namespace v1
+}  // namespace alpenglow
