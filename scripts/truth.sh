@@ -13,11 +13,11 @@ python3 tests/reference/make_queries.py "$folder"
 names=("$@")
 if (( ${#names[@]} == 0 )); then
   names=(earth earth-fig6 earth-clear earth-hazy mars haze85 haze93 thick5 planet60km
-         rayleigh-only mie-only)
+         rayleigh-only mie-only evening)
 fi
 for name in "${names[@]}"; do
   case "$name" in
-    earth | earth-fig6 | earth-hazy) samples=() ;;  # Until the targets.
+    earth | earth-fig6 | earth-hazy | evening) samples=() ;;  # Until the targets.
     haze*) samples=(--samples 262144) ;;
     earth-* | mars) samples=(--samples 131072) ;;
     *) samples=(--samples 65536) ;;

@@ -20,30 +20,79 @@ void shapeDepths(const physics_f64::Medium& medium, Shape* s) {
   s->heightScale = std::min(medium.thickness, std::sqrt(least * most));
 }
 
-// Nodes of the sun's zenith angle: densest where the top of the air passes into the planet's
-// shadow, which on Earth is 7.84 degrees wide, as far as light has any way to come.
-void shapeSun(const physics_f64::Medium& medium, Shape* s) {
+/// How far tables reach beyond the suns that are asked for, in dips of the top: as far as rays, and
+/// the light that lights them, come from. Measured: build/bin/domain_bench.
+constexpr double kReachToNight = 0.6, kReachToDay = 0.75;
+/// And towards the day for each radian that the sun is below the horizon: twilight comes from
+/// there.
+constexpr double kReachBelow = 0.75;
+
+/// Where the top of the air passes into the planet's shadow; on Earth 7.84 degrees wide.
+double dipOfTop(const physics_f64::Medium& medium) {
+  return std::acos(medium.bottomRadius / (medium.bottomRadius + medium.thickness));
+}
+
+/// u of nodes is linear in this: densest around the terminator.
+struct SunNodes {
+  double center, width;
+  double first, last;  ///< Radians, of all suns: as far as light has any way to come.
+
+  double at(double theta) const { return std::asinh((theta - center) / width); }
+};
+
+SunNodes sunNodes(const physics_f64::Medium& medium) {
   constexpr double kPi = std::numbers::pi;
-  const double dip = std::acos(medium.bottomRadius / (medium.bottomRadius + medium.thickness));
-  const double relative = dip / (7.84 * kDegree);
-  const double width = std::min(10.0 * kDegree * relative, 40.0 * kDegree);
-  const double center = kPi / 2.0 + std::min(5.0 * kDegree * relative, 10.0 * kDegree);
-  const double last =
-      std::min(kPi, std::max(center + 35.0 * kDegree * relative, kPi / 2.0 + 4.5 * dip));
-  s->sunCenter = center;
-  s->sunWidth = width;
-  s->sunLow = std::asinh(-center / width);
-  s->sunRange = std::asinh((last - center) / width) - s->sunLow;
+  const double dip = dipOfTop(medium), relative = dip / (7.84 * kDegree);
+  SunNodes nodes = {};
+  nodes.width = std::min(10.0 * kDegree * relative, 40.0 * kDegree);
+  nodes.center = kPi / 2.0 + std::min(5.0 * kDegree * relative, 10.0 * kDegree);
+  nodes.last =
+      std::min(kPi, std::max(nodes.center + 35.0 * kDegree * relative, kPi / 2.0 + 4.5 * dip));
+  return nodes;
+}
+
+struct SunRange {
+  double first, last;
+};
+
+/// What the tables of a description hold of all suns.
+SunRange sunRange(const physics_f64::Medium& medium, const SunNodes& nodes, const TableDesc& desc) {
+  if (allSuns(desc)) return {nodes.first, nodes.last};
+  const double dip = dipOfTop(medium);
+  const double below = std::max(desc.sunZenithFrom - std::numbers::pi / 2.0, 0.0);
+  const double reach = kReachToDay * dip + kReachBelow * below;
+  // Suns lower than light ever comes from take the last place there is.
+  const double last = std::min(desc.sunZenithTo + kReachToNight * dip, nodes.last);
+  return {std::max(std::min(desc.sunZenithFrom, last) - reach, nodes.first), last};
+}
+
+void shapeSun(const physics_f64::Medium& medium, const TableDesc& desc, Shape* s) {
+  const SunNodes nodes = sunNodes(medium);
+  const SunRange range = sunRange(medium, nodes, desc);
+  s->sunCenter = nodes.center;
+  s->sunWidth = nodes.width;
+  s->sunLow = nodes.at(range.first);
+  s->sunRange = nodes.at(range.last) - s->sunLow;
 }
 
 }  // namespace
+
+uint32_t nodesOfSunRange(const Parameters& parameters, const TableDesc& desc, uint32_t all) {
+  const physics_f64::Medium medium = makeMediumF64(parameters);
+  const SunNodes nodes = sunNodes(medium);
+  const SunRange range = sunRange(medium, nodes, desc);
+  const double share = (nodes.at(range.last) - nodes.at(range.first)) /
+                       (nodes.at(nodes.last) - nodes.at(nodes.first));
+  return std::clamp(static_cast<uint32_t>(std::ceil(share * (all - 1))) + 1, kLeastSunNodes,
+                    std::max(all, kLeastSunNodes));
+}
 
 physics_f64::MomentShape makeMomentShapeF64(const Parameters& parameters, const TableDesc& desc) {
   const physics_f64::Medium medium = makeMediumF64(parameters);
   const MomentSettings& c = desc.moments;
   Shape s = {};
   shapeDepths(medium, &s);
-  shapeSun(medium, &s);
+  shapeSun(medium, desc, &s);
   s.depthMu = c.depthMu;
   s.depthH = c.depthH;
   s.nodesR = c.nodesR;

@@ -13,6 +13,16 @@ physics_f64::MomentShape makeMomentShapeF64(const Parameters& parameters, const 
 /// The same as the GPU has it.
 physics_f32::MomentShape makeMomentShapeF32(const Parameters& parameters, const TableDesc& desc);
 
+/// Whether a description's tables are for suns of any zenith angle.
+inline bool allSuns(const TableDesc& desc) {
+  return desc.sunZenithFrom == 0.0 && desc.sunZenithTo == 0.0;
+}
+
+/// Nodes over mu_s that a description's range of suns takes, as dense as `all` of them are over
+/// every sun. Cubics want four.
+uint32_t nodesOfSunRange(const Parameters& parameters, const TableDesc& desc, uint32_t all);
+inline constexpr uint32_t kLeastSunNodes = 4;
+
 /// Orders of scattering that are computed one by one: TableDesc::orders, or for 0 as many as the
 /// air needs before the rest is a geometric series.
 uint32_t solvedOrders(const Parameters& parameters, const TableDesc& desc);

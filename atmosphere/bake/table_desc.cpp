@@ -1,4 +1,7 @@
 // Checks of TableDesc, before anything is made.
+#include <numbers>
+
+#include "atmosphere/bake/moment_shape.h"
 #include "atmosphere/bake/table_set.h"
 
 namespace alpenglow::bake {
@@ -63,8 +66,18 @@ Status checkCombination(const engine::Device& device, const TableDesc& desc) {
     if (desc.quality != Quality::Default) return refuse("Standard", "a Quality");
     if (anyGiven(desc.moments, &MomentSettings::depthMu))
       return refuse("Standard", "MomentSettings");
+    if (!allSuns(desc)) return refuse("Standard", "a range of suns");
   }
   return Status::Ok;
+}
+
+Status checkSuns(const engine::Device& device, const TableDesc& desc) {
+  const double from = desc.sunZenithFrom, to = desc.sunZenithTo;
+  if (from >= 0.0 && to >= from && to <= std::numbers::pi) return Status::Ok;
+  return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                     "TableDesc has suns of zenith angles from %g to %g, but they must rise from 0 "
+                     "to at most pi.",
+                     from, to);
 }
 
 Status checkSettings(const engine::Device& device, const MomentSettings& s, bool zeroIsDefault) {
@@ -123,6 +136,8 @@ TableDesc completed(const Parameters& parameters, const TableDesc& desc) {
   TableDesc full = desc;
   if (desc.solver == Solver::Moments) {
     full.moments = momentSettings(parameters, desc.quality, desc.moments);
+    if (desc.moments.nodesMuS == 0)
+      full.moments.nodesMuS = nodesOfSunRange(parameters, desc, full.moments.nodesMuS);
     return full;
   }
   const TableSizes defaults = defaultTableSizes();
@@ -139,6 +154,7 @@ Status checkTableDesc(const engine::Device& device, const TableDesc& desc) {
   Status status = checkEnumerations(device, desc);
   if (status == Status::Ok) status = checkCombination(device, desc);
   if (status == Status::Ok) status = checkSettings(device, desc.moments, true);
+  if (status == Status::Ok) status = checkSuns(device, desc);
   if (status != Status::Ok) return status;
   if (desc.orders > kMaxOrders) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,

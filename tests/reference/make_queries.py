@@ -169,6 +169,28 @@ def queries_of(atmosphere, full):
     return q.list
 
 
+def evening_queries(atmosphere):
+    """What a scene at ground level sees under a sun that stands still, 3 degrees high."""
+    q = Queries(atmosphere)
+    sun = 3
+    azimuths = [0, 30, 90, 150, 180]
+    for h in (0, 100):
+        q.irradiance(sun, h)
+    for i, h in enumerate((2, 100)):
+        for k, zenith in enumerate((0, 30, 60, 75, 83, 87, 89, 89.8)):
+            for a in azimuths[(i + k) % 2::2]:
+                q.ray("sky", sun, h, zenith, a)
+        for k, offset in enumerate((0.005, -0.005, 0.05, -0.05)):
+            q.horizon(sun, h, offset, azimuths[(2 * i + k) % 5])
+        for angle in (0.5, 2, 8):
+            q.aureole(sun, h, angle)
+        q.antisolar(sun, h)
+        for k, length in enumerate((100, 1000, 10000, 50000)):
+            q.ray("segment", sun, h, 90 - 0.5 * i, azimuths[k], length)
+    q.down(sun, 100, 60, 90)
+    return q.list
+
+
 def changed(base, **fields):
     result = json.loads(json.dumps(base))
     result.update(fields)
@@ -209,12 +231,14 @@ def main():
     presets = {}
     for name in PRESETS:
         presets[name] = json.loads(subprocess.check_output([program, "presets", name]))
-    sets = {**presets, **hard_atmospheres(presets)}
+    sets = {**presets, **hard_atmospheres(presets), "evening": presets["earth"]}
     for name, atmosphere in sets.items():
         with open(f"{folder}/{name}.atmosphere.json", "w") as file:
             json.dump(atmosphere, file, indent=2)
             file.write("\n")
-        lines = ",\n  ".join(json.dumps(q) for q in queries_of(atmosphere, name in PRESETS))
+        queries = (evening_queries(atmosphere) if name == "evening"
+                   else queries_of(atmosphere, name in PRESETS))
+        lines = ",\n  ".join(json.dumps(q) for q in queries)
         with open(f"{folder}/{name}.queries.json", "w") as file:
             file.write('{"queries": [\n  ' + lines + "]}\n")
 
