@@ -227,6 +227,7 @@ Status View::makePipelines(bool slice, VkPipeline* pipelines) {
   desc.subpass = desc_.subpass;
   desc.depthTest = desc_.depthFormat != VK_FORMAT_UNDEFINED;
   desc.depthCompare = reversed ? VK_COMPARE_OP_GREATER_OR_EQUAL : VK_COMPARE_OP_LESS_OR_EQUAL;
+  const VkExtent3D texels = slice ? slice_->extent() : VkExtent3D{};
   for (const sky::Visible seen : sky::kCombinations) {
     const engine::SpecConstant constants[] = {
         engine::specBool(0, desc_.mie == MieStorage::Packed),
@@ -238,9 +239,11 @@ Status View::makePipelines(bool slice, VkPipeline* pipelines) {
         engine::specBool(6, desc_.projection == Projection::Orthographic),
         engine::specUint(8, shafts_.method),
         engine::specUint(9, shafts_.samples),
-        engine::specFloat(10, shafts_.multipleLoss)};
+        engine::specFloat(10, shafts_.multipleLoss),
+        engine::specFloat(11, static_cast<float>(texels.width)),
+        engine::specFloat(12, static_cast<float>(texels.height))};
     desc.constants = constants;
-    desc.constantCount = 10;
+    desc.constantCount = 12;
     const Status status =
         engine::createGraphicsPipeline(device_, desc, &pipelines[sky::variant(seen)]);
     if (status != Status::Ok) return status;

@@ -1,6 +1,7 @@
 #include "atmosphere/sky/sky_slice.h"
 
 #include <algorithm>
+#include <iterator>
 #include <new>
 
 #include "atmosphere/sky/shader_choice.h"
@@ -13,8 +14,16 @@ struct SliceConstants {
   float altitude, muS, horizon, span, bend;
 };
 
-constexpr VkExtent3D kMomentSlice = {physics_f32::kSliceColumns, physics_f32::kSliceRows, 1};
-static_assert(kMomentSlice.width % 8 == 0 && kMomentSlice.height % 8 == 0);
+/// Texels by quality, Draft ... Ultra: no finer than what the tables hold is right. Whole groups;
+/// half of the columns is used inside the atmosphere. Errors of each: docs/stability.md.
+constexpr VkExtent3D kMomentSlices[] = {
+    {48, 64, 1}, {64, 96, 1}, {128, 160, 1}, {128, 160, 1}, {128, 160, 1}};
+static_assert(std::size(kMomentSlices) == static_cast<size_t>(Quality::Ultra));
+
+VkExtent3D momentSlice(Quality quality) {
+  const Quality level = quality == Quality::Default ? Quality::Medium : quality;
+  return kMomentSlices[static_cast<size_t>(level) - 1];
+}
 
 constexpr VkDescriptorSetLayoutBinding kBindings[2] = {
     {0, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
@@ -35,7 +44,7 @@ bool RecordedFor::is(const Tables& tables, const SkyDraw& draw) const {
 
 VkExtent3D SkySlice::extentFor(const TableDesc& desc) {
   return desc.solver == Solver::Moments
-             ? kMomentSlice
+             ? momentSlice(desc.quality)
              : VkExtent3D{desc.sizes.scatteringNu, desc.sizes.scatteringMu, 1};
 }
 
@@ -108,12 +117,15 @@ Status SkySlice::makePipeline(TableFormat format) {
   const Status status =
       engine::createPipelineLayout(device_, sets, 2, &range, 1, "Alpenglow sky slice", &layout_);
   if (status != Status::Ok) return status;
-  const engine::SpecConstant packed = engine::specBool(0, mie_ == MieStorage::Packed);
   engine::ComputePipelineDesc desc;
   desc.shader = sliceShader(solver_, without_, format);
   desc.layout = layout_;
-  desc.constants = &packed;
-  desc.constantCount = solver_ == Solver::Standard ? 1 : 0;
+  const engine::SpecConstant constants[] = {
+      engine::specBool(0, mie_ == MieStorage::Packed),
+      engine::specFloat(11, static_cast<float>(extent_.width)),
+      engine::specFloat(12, static_cast<float>(extent_.height))};
+  desc.constants = constants;
+  desc.constantCount = 3;
   return engine::createComputePipeline(device_, desc, &pipeline_);
 }
 
@@ -145,9 +157,10 @@ Status SkySlice::record(VkCommandBuffer commands, const Tables& tables, const Sk
                            nullptr);
   vk.CmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
                       &constants);
-  const uint32_t columns = solver_ == Solver::Moments
-                               ? static_cast<uint32_t>(physics_f64::sliceAzimuths(view))
-                               : extent_.width;
+  const uint32_t columns =
+      solver_ == Solver::Moments
+          ? static_cast<uint32_t>(physics_f64::sliceAzimuths(view, extent_.width))
+          : extent_.width;
   vk.CmdDispatch(commands, (columns + 7) / 8, (extent_.height + 7) / 8, 1);
   ++device_.counters().dispatches;
 

@@ -40,7 +40,9 @@ class SkySlice {
   static Status create(bake::Resources& resources, const TableDesc& desc, SkySlice** out);
   static void destroy(SkySlice* slice, const FrameInfo& frame);
 
+  /// Moments: any tables, whatever their quality.
   bool fits(const Tables& tables) const {
+    if (solver_ == Solver::Moments) return true;
     const VkExtent3D other = extentFor(tables.desc());
     return other.width == extent_.width && other.height == extent_.height;
   }
@@ -58,6 +60,7 @@ class SkySlice {
   /// packed the first again, so that each binding has an image.
   const engine::Image& image() const { return images_[0]; }
   const engine::Image& mieImage() const { return images_[count_ - 1]; }
+  const VkExtent3D& extent() const { return extent_; }
   Status assertReadable() const;
 
  private:

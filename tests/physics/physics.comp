@@ -19,7 +19,7 @@ void main() {
   SliceView view = SliceView(1.5, 1.6, 1.0);
   result[2] = vec4(depthCoordinate(medium, shape, ray.h, ray.mu), pieceNode(piece, 0.5));
   result[3] = vec4(reflectedRadiance(medium.groundAlbedo, depth, depth),
-                   sliceCoordinate(view, angleFromNadir(ray.mu, 0.5), 0.5, ray.hitsGround).x);
+                   gridCoordinate(sliceGrid(view, 128.0, 160.0), view, angleFromNadir(ray.mu, 0.5), 0.5, ray.hitsGround).x);
   AirStretch air = airStretch(medium, airView(medium, view, ray.h), ray);
   result[4] = vec4(airUnit(air, 100.0), airTexelDistance(air, 3), airMeanDepth(result[0], 1.0), 0.0);
   result[1] = vec4(toneMapFilmic(depth), miePhase(medium.mieAsymmetry, ray.nu));

@@ -23,8 +23,9 @@ physics::Spectrum callEachFile(const physics::Medium& medium) {
   const physics::Real2 at =
       physics::depthCoordinate(medium, shape, ray.h, ray.mu) +
       physics::pieceNode(piece, Real(0.5)) +
-      physics::sliceCoordinate(view, physics::angleFromNadir(ray.mu, Real(0.5)), Real(0.5),
-                               ray.hitsGround);
+      physics::gridCoordinate(physics::sliceGrid(view, Real(128), Real(160)), view,
+                              physics::angleFromNadir(ray.mu, Real(0.5)), Real(0.5),
+                              ray.hitsGround);
   const physics::AirStretch air =
       physics::airStretch(medium, physics::airView(medium, view, ray.h), ray);
   if (at[0] > physics::airUnit(air, physics::airTexelDistance(air, 3)))

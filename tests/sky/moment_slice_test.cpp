@@ -199,6 +199,50 @@ TEST_F(MomentSliceTest, IsNotReadForAnotherCameraSunOrTables) {
   EXPECT_LT(difference(picture(sliced, earth, draw), ofEarth), kRounding);
 }
 
+// No finer than what the tables hold is right: docs/accuracy.md has the errors of the levels.
+TEST_F(MomentSliceTest, ACoarserLevelHasACoarserSlice) {
+  struct Level {
+    const char* name;
+    Quality quality;
+    double p95;
+  };
+  uint64_t bytes = 0;
+  for (const Level& level : {Level{"draft", Quality::Draft, 1e-2}, Level{"low", Quality::Low, 5e-3},
+                             Level{"medium", Quality::Medium, 2e-3}}) {
+    TableDesc desc;
+    desc.quality = level.quality;
+    Tables* tables = nullptr;
+    ASSERT_EQ(createTables(context(), preset("earth"), desc, &tables), Status::Ok) << message();
+    bakeAll(device(), tables);
+    ViewDesc viewDesc;
+    viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+    viewDesc.projection = Projection::Fisheye;
+    viewDesc.skySlice = tables;
+    ResourceReport before, after;
+    resourceReport(context(), &before);
+    View* const sliced = makeView(viewDesc);
+    resourceReport(context(), &after);
+    EXPECT_GT(after.bytes - before.bytes, bytes) << level.name;
+    bytes = after.bytes - before.bytes;
+    std::printf("%-7s", level.name);
+    const Shot shot = {Projection::Fisheye, 0.0, radians(-90.0), 2.0 * kPi, {96, 96}};
+    for (const double altitude : {2.0, 1e4}) {
+      for (const double elevation : kSuns) {
+        const SkyDraw draw = drawOf(shot, altitude, elevation);
+        SliceErrors found;
+        recordSlice(sliced, tables, draw);
+        found.add(picture(draw, shot.projection, tables), picture(sliced, tables, draw));
+        std::sort(found.errors.begin(), found.errors.end());
+        const double p95 = found.errors[found.errors.size() * 95 / 100];
+        std::printf(" %5.3f", 100 * p95);
+        EXPECT_LT(p95, level.p95) << level.name << " " << altitude << ", sun " << elevation;
+      }
+    }
+    std::printf("\n");
+    destroyTables(tables, device().frame());
+  }
+}
+
 TEST_F(MomentSliceTest, IsOneDispatchInsideAndOutside) {
   View* const sliced = slicedView(Projection::Perspective);
   for (const double altitude : {2.0, 4e5}) {

@@ -129,7 +129,7 @@ class SkyTest : public DeviceTest {
   /// Of 32-bit floats, for the suite's solver.
   ViewDesc viewDesc() const;
   View* makeView(const ViewDesc& desc);
-  /// Like view(), with a sky slice of the shape of tables().
+  /// Like view(), with a sky slice of the shape of tables(), but of the default level.
   View* slicedView(Projection projection);
   void recordSlice(View* sliced, const Tables* with, const SkyDraw& draw);
   /// With view(projection), into a 32-bit float target of the viewport's size.

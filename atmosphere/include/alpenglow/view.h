@@ -119,8 +119,9 @@ struct SkyDraw {
 /// of another shape. Nothing is recorded for orthographic cameras, whose rays have an observer
 /// each, and, with Solver::Standard, for a camera outside the atmosphere; the picture is that of
 /// the tables then. With Moments it is interpolated between the rays of the slice, 64 x 160 inside
-/// the atmosphere and 128 x 160 outside, and off by what docs/stability.md says. Clobbers: compute
-/// pipeline, sets 0 and 1, push constants.
+/// the atmosphere and 128 x 160 outside (fewer where ViewDesc::skySlice is of a level below
+/// medium), and off by what docs/stability.md says. Clobbers: compute pipeline, sets 0 and 1, push
+/// constants.
 Status recordSkySlice(View* view, VkCommandBuffer commands, const FrameInfo& frame,
                       const Tables* tables, const SkyDraw& draw);
 

@@ -29,7 +29,7 @@ ALPENGLOW_FN SliceGrid airGrid(IN(SliceView) view) {
   SliceGrid grid;
   grid.groundRows = sliceFromSpace(view) ? REAL(57.0) : REAL(32.0);
   grid.rows = Real(kAirRows);
-  grid.columns = sliceAzimuths(view);
+  grid.columns = sliceAzimuths(view, Real(kAirColumns));
   grid.width = Real(kAirColumns);
   return grid;
 }

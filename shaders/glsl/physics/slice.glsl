@@ -2,9 +2,6 @@
 // made anew for each camera and sun. Rows are dense towards the horizon on both of its sides, so it serves
 // from the ground, where the sky fills half the sphere, to outer space, where it is a thin ring.
 
-const int kSliceColumns = 128;
-const int kSliceRows = 160;
-
 // Angles from the nadir, of the horizon and of the highest ray that meets the air (pi inside it). Given in
 // place of zenith angles, which have no digits left for a planet far below.
 struct SliceView {
@@ -21,15 +18,11 @@ ALPENGLOW_FN bool sliceFromSpace(IN(SliceView) view) {
   return view.horizon + view.span < REAL(2.0);
 }
 
-// Rows of the ground's side; the sky's follow.
-ALPENGLOW_FN Real sliceGroundRows(IN(SliceView) view) {
-  return sliceFromSpace(view) ? REAL(96.0) : REAL(48.0);
-}
-
-// Columns in use. Seen from space the terminator crosses them, where light falls by orders of magnitude;
-// from inside all that is left of it is twilight. A column more is filled if there is one, for the filter.
-ALPENGLOW_FN Real sliceAzimuths(IN(SliceView) view) {
-  return sliceFromSpace(view) ? Real(kSliceColumns) : REAL(63.0);
+// Of `columns`, those in use. Seen from space the terminator crosses them, where light falls by orders of
+// magnitude; from inside all that is left of it is twilight. A column more is filled if there is one, for
+// the filter.
+ALPENGLOW_FN Real sliceAzimuths(IN(SliceView) view, Real columns) {
+  return sliceFromSpace(view) ? columns : REAL(0.5) * columns - REAL(1.0);
 }
 
 // u in [0, 1] of a ray on its side of the horizon, and back. The square root is what light is smooth in on
@@ -62,12 +55,13 @@ struct SliceGrid {
   Real width;    // of the texture
 };
 
-ALPENGLOW_FN SliceGrid sliceGrid(IN(SliceView) view) {
+// Of a sky slice of columns x rows, which its tables' quality decides.
+ALPENGLOW_FN SliceGrid sliceGrid(IN(SliceView) view, Real columns, Real rows) {
   SliceGrid grid;
-  grid.groundRows = sliceGroundRows(view);
-  grid.rows = Real(kSliceRows);
-  grid.columns = sliceAzimuths(view);
-  grid.width = Real(kSliceColumns);
+  grid.groundRows = floor(rows * (sliceFromSpace(view) ? REAL(0.6) : REAL(0.3)));
+  grid.rows = rows;
+  grid.columns = sliceAzimuths(view, columns);
+  grid.width = columns;
   return grid;
 }
 
@@ -79,11 +73,6 @@ ALPENGLOW_FN Real2 gridCoordinate(IN(SliceGrid) grid, IN(SliceView) view, Real n
                           : grid.groundRows + u * (grid.rows - grid.groundRows - REAL(1.0));
   return Real2((REAL(0.5) + sineHalf * (grid.columns - REAL(1.0))) / grid.width,
                (texel + REAL(0.5)) / grid.rows);
-}
-
-ALPENGLOW_FN Real2 sliceCoordinate(IN(SliceView) view, Real nadirAngle, Real sineHalf,
-                                   bool hitsGround) {
-  return gridCoordinate(sliceGrid(view), view, nadirAngle, sineHalf, hitsGround);
 }
 
 // The ray of texel (x, y), of a camera at an altitude.

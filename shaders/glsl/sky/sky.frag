@@ -8,6 +8,8 @@ layout(constant_id = 1) const bool kFisheye = false;
 layout(constant_id = 2) const bool kGround = true;  // some pixels may see the ground
 layout(constant_id = 3) const bool kSunDisc = true;
 layout(constant_id = 5) const bool kAir = true;
+layout(constant_id = 11) const float kSliceColumns = 128.0;
+layout(constant_id = 12) const float kSliceRows = 160.0;
 
 #ifdef ALPENGLOW_SKY_SLICE
 // Light that arrives at this frame's camera, or of the standard solver S at its altitude, for cameras
@@ -117,7 +119,8 @@ Spectrum sliceTerm(Ray ray, vec3 view) {
 #else
   SliceView slice = SliceView(circleSlice.z, circleSlice.w, sunAzimuth.w);
   vec2 angles = sliceAngles(upAltitude.xyz, sunAzimuth.xyz, view);
-  vec2 at = sliceCoordinate(slice, angles.x, angles.y, ray.hitsGround);
+  vec2 at = gridCoordinate(sliceGrid(slice, kSliceColumns, kSliceRows), slice, angles.x, angles.y,
+                           ray.hitsGround);
   Spectrum light = decodeSlice(readSlice(at).rgb, readSliceMie(at),
                                miePhase(alpenglowMedium.mieAsymmetry, ray.nu));
   return ray.inAtmosphere ? light : SPECTRUM(0.0);

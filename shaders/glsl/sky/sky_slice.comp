@@ -9,6 +9,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = 1, binding = 0, ALPENGLOW_STORAGE) uniform writeonly image2D slice;
 layout(set = 1, binding = 1, ALPENGLOW_STORAGE) uniform writeonly image2D sliceMie;
 
+layout(constant_id = 11) const float kSliceColumns = 128.0;
+layout(constant_id = 12) const float kSliceRows = 160.0;
+
 layout(push_constant) uniform Camera {
   float altitude;
   float muS;
@@ -18,7 +21,7 @@ layout(push_constant) uniform Camera {
 void main() {
   ivec2 texel = ivec2(gl_GlobalInvocationID.xy);  // the image is whole groups
   SliceView view = SliceView(horizon, span, bend);
-  Ray ray = gridRay(alpenglowMedium, sliceGrid(view), view, altitude, muS, float(texel.x),
+  Ray ray = gridRay(alpenglowMedium, sliceGrid(view, kSliceColumns, kSliceRows), view, altitude, muS, float(texel.x),
                     float(texel.y));
   PathLight light = alpenglowPathLight(ray, ray.extent);
   Spectrum logarithm, mieShare;
