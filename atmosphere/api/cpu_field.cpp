@@ -39,6 +39,7 @@ Spectrum TableCopy::texel(uint32_t x, uint32_t y, uint32_t z) const {
 }
 
 Spectrum TableCopy::sample(Real u, Real v, Real w) const {
+  if (data == nullptr) return Spectrum(0.0f);
   const Axis x = axis(u, width), y = axis(v, height), z = axis(w, depth);
   Spectrum sum(0.0f);
   for (int k = 0; k < (depth > 1 ? 2 : 1); ++k)

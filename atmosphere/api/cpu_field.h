@@ -9,7 +9,7 @@ namespace alpenglow::cpu {
 using namespace physics_f32;             // NOLINT: as the text has it
 using Spectrum = physics_f32::Spectrum;  // not the public one
 
-/// A tightly packed copy of a table of RGBA16F or RGBA32F. Does not own it.
+/// A tightly packed copy of a table of RGBA16F or RGBA32F. Does not own it. Null data: zeros.
 struct TableCopy {
   const void* data = nullptr;
   uint32_t width = 0, height = 0, depth = 0;
@@ -27,20 +27,24 @@ struct TableCopy {
 #define SPECTRUM(value) Spectrum(value)
 #define REAL(literal) static_cast<float>(literal)
 
-/// One atmosphere's tables.
+/// One atmosphere's tables, made without some effects (TableDesc::without).
 class Field {
  public:
-  Field(const Medium& medium, const MomentShape& shape, const TableCopy& opticalDepth,
-        const TableCopy& moments, const TableCopy& source)
+  Field(const Medium& medium, const MomentShape& shape, EffectFlags without,
+        const TableCopy& opticalDepth, const TableCopy& moments, const TableCopy& source)
       : medium_(medium),
         shape_(shape),
+        multiple_(hasEffect(without, Effect::MultipleScattering)),
+        irradiance_(multiple_ && hasEffect(without, Effect::GroundIrradiance)),
         opticalDepth_(opticalDepth),
         moments_(moments),
         source_(source) {}
 
   /// Those of the sun on a horizontal surface, and of the sky; h up to the top.
   Spectrum direct(Real h, Real muS) { return sunlight(medium_, shape_, h, muS) * max(muS, 0.0f); }
-  Spectrum sky(Real h, Real muS) { return fieldIrradiance(medium_, shape_, h, muS); }
+  Spectrum sky(Real h, Real muS) {
+    return irradiance_ ? fieldIrradiance(medium_, shape_, h, muS) : Spectrum(0.0f);
+  }
   Spectrum groundRadiance(Real muS) {
     return reflectedRadiance(medium_.groundAlbedo, direct(0.0f, muS), sky(0.0f, muS));
   }
@@ -49,8 +53,8 @@ class Field {
   }
   Spectrum skyRadiance(const Ray& ray, Real length) {
     const int panels = static_cast<int>(shape_.viewPanels);
-    return radianceOfPath(medium_, lightOfPath(medium_, shape_, ray, length, panels, true, true),
-                          ray.nu);
+    return radianceOfPath(
+        medium_, lightOfPath(medium_, shape_, ray, length, panels, true, multiple_), ray.nu);
   }
 
  private:
@@ -63,6 +67,7 @@ class Field {
 
   Medium medium_;
   MomentShape shape_;
+  bool multiple_, irradiance_;
   TableCopy opticalDepth_, moments_, source_;
 };
 

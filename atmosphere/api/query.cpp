@@ -56,8 +56,9 @@ ProbeAnswer rayAnswer(cpu::Field& field, const physics_f64::Medium& medium, bool
 }
 
 cpu::TableCopy copyOf(const Tables& tables, TableId id, const void* data) {
+  if (data == nullptr) return {};
   TableInfo info;
-  tables.info(id, &info);  // These three are in all tables of moments.
+  tables.info(id, &info);
   return {data, info.width, info.height, info.depth, info.format == VK_FORMAT_R16G16B16A16_SFLOAT};
 }
 
@@ -80,10 +81,13 @@ Status checkCall(const Tables& tables, const TableReadbacks& copies, const Probe
                        "answerQueries got tables that are not baked, but needs copies of tables "
                        "whose bake is done.");
   }
-  const char* missing = copies.opticalDepth == nullptr                           ? "OpticalDepth"
-                        : copies.moments == nullptr                              ? "Moments"
-                        : rays && copies.skyRadiance && copies.source == nullptr ? "Source"
-                                                                                 : nullptr;
+  const EffectFlags without = tables.desc().without;
+  const bool multiple = hasEffect(without, Effect::MultipleScattering);
+  const bool sources = rays && copies.skyRadiance && hasEffect(without, Effect::Mie);
+  const char* missing = copies.opticalDepth == nullptr                    ? "OpticalDepth"
+                        : multiple && copies.moments == nullptr           ? "Moments"
+                        : multiple && sources && copies.source == nullptr ? "Source"
+                                                                          : nullptr;
   if (missing == nullptr) return Status::Ok;
   return device.fail(Status::NotReady, VK_SUCCESS,
                      "answerQueries got no copy of TableId::%s, but needs one that "
@@ -102,6 +106,7 @@ Status answerQueries(const Tables* tables, const TableReadbacks& copies, const P
   const Parameters& parameters = tables->parameters();
   const physics_f64::Medium medium = makeMediumF64(parameters);
   cpu::Field field(makeMediumF32(parameters), bake::makeMomentShapeF32(parameters, tables->desc()),
+                   tables->desc().without,
                    copyOf(*tables, TableId::OpticalDepth, copies.opticalDepth),
                    copyOf(*tables, TableId::Moments, copies.moments),
                    copyOf(*tables, TableId::Source, copies.source));

@@ -39,11 +39,12 @@ Status createTables(Context* context, const Parameters& parameters, const TableD
     return context->device->fail(Status::InvalidArgument, VK_SUCCESS, "%s", message);
   Status status = bake::checkTableDesc(*context->device, desc);
   if (status != Status::Ok) return status;
-  const TableDesc full = bake::completed(parameters, desc);
+  const Parameters simulated = bake::simulated(parameters, desc.without);
+  const TableDesc full = bake::completed(simulated, desc);
   status = bake::checkSizes(*context->device, full);
   if (status != Status::Ok) return status;
   const bool bakes = (context->capabilities & kCapabilityBake) != 0;
-  return Tables::create(*context->bake, parameters, full, bakes, out);
+  return Tables::create(*context->bake, simulated, full, bakes, out);
 }
 
 void destroyTables(Tables* tables, const FrameInfo& frame) { Tables::destroy(tables, frame); }

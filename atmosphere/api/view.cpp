@@ -16,13 +16,14 @@ Status checkShafts(const Context& context, const ViewDesc& desc) {
   const SceneDepth &a = shafts.sceneDepth, &b = desc.sceneDepth;
   const bool same = a.view == b.view && a.format == b.format && a.layout == b.layout &&
                     a.extent.width == b.extent.width && a.extent.height == b.extent.height &&
-                    shafts.depth == desc.depth && shafts.projection == desc.projection;
+                    shafts.depth == desc.depth && shafts.projection == desc.projection &&
+                    shafts.without == desc.without;
   if (same && desc.solver == Solver::Moments && &desc.shafts->resources() == context.bake)
     return Status::Ok;
   return context.device->fail(
       Status::InvalidArgument, VK_SUCCESS,
       "ViewDesc::shafts %s, but a view needs shafts of its own context, made for its sceneDepth, "
-      "depth and projection, and Solver::Moments.",
+      "depth, projection and without, and Solver::Moments.",
       desc.solver != Solver::Moments              ? "are for a view of Solver::Standard"
       : &desc.shafts->resources() != context.bake ? "are of another context"
                                                   : "were made for another picture");

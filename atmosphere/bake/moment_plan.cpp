@@ -6,10 +6,12 @@
 #include <alpenglow/shaders/moment_harmonics.h>
 #include <alpenglow/shaders/moment_legendre.h>
 #include <alpenglow/shaders/moment_light.h>
+#include <alpenglow/shaders/moment_light_molecules.h>
 #include <alpenglow/shaders/moment_modes.h>
 #include <alpenglow/shaders/moment_rotations.h>
 #include <alpenglow/shaders/moment_rules.h>
 #include <alpenglow/shaders/moment_single.h>
+#include <alpenglow/shaders/moment_single_molecules.h>
 #include <alpenglow/shaders/moment_source_modes.h>
 #include <alpenglow/shaders/moment_source_none_rgba16f.h>
 #include <alpenglow/shaders/moment_source_none_rgba32f.h>
@@ -29,8 +31,6 @@ namespace {
 
 /// kFineRings of shaders/glsl/physics/moments.glsl.
 constexpr uint32_t kFineRings = 2;
-/// momentLayers() of shaders/glsl/physics/field.glsl.
-constexpr uint32_t kLayers = 5;
 
 /// Bindings of shaders/glsl/bake/moment_common.glsl.
 enum Binding : uint32_t {
@@ -67,6 +67,10 @@ class Builder {
       : c_(desc.moments),
         half_(desc.format == TableFormat::Half),
         orders_(orders),
+        without_(desc.without),
+        hasMie_(hasEffect(desc.without, Effect::Mie)),
+        reflects_(hasEffect(desc.without, Effect::GroundReflection)),
+        layers_(fieldLayers(desc)),
         nodes_(c_.nodesR * c_.nodesMuS),
         rings_(c_.ringsSky + c_.ringsLimb + c_.ringsGround),
         modesPerRing_(c_.degree + 1),
@@ -76,11 +80,15 @@ class Builder {
 
   SolverPlan build() {
     addTables();
-    if (orders_ > 1) {
-      addPreparation();
-      addOrders();
+    if (hasEffect(without_, Effect::MultipleScattering)) {
+      addFieldTables();
+      if (orders_ > 1) {
+        addPreparation();
+        addOrders();
+      }
+      addSums();
     }
-    addSums();
+    for (Stage& stage : plan_.stages) stage.without = without_;
     return std::move(plan_);
   }
 
@@ -120,43 +128,48 @@ class Builder {
   }
 
   void addTables() {
-    const VkFormat format = vulkanFormat(half_ ? TableFormat::Half : TableFormat::Float);
     t_ = floats("Alpenglow optical depth", c_.depthMu, c_.depthH, true);
-    total_ = floats("Alpenglow moments", fieldMuS_, fieldR_ * kLayers, true);
-    source_ = sources("Alpenglow source", format);
-    for (uint32_t image : {t_, total_, source_}) plan_.images[image].persistent = true;
-    plan_.tables = {
-        {TableId::OpticalDepth, t_}, {TableId::Moments, total_}, {TableId::Source, source_}};
-    const uint32_t bound[kBoundTables] = {t_, total_, source_, source_};
-    std::memcpy(plan_.bound, bound, sizeof bound);
+    keep(TableId::OpticalDepth, t_);
+    // What isn't there is not declared by those who read it, but lavapipe wants every binding
+    // filled.
+    for (uint32_t& bound : plan_.bound) bound = t_;
 
     Stage depth = stage(ALPENGLOW_SHADER(kMomentDepth), c_.depthMu, c_.depthH, 20);
     depth.outputs = {{t_}};
     plan_.addPass(plan_.addStage(depth), "T", 0);
   }
 
+  void keep(TableId id, uint32_t image) {
+    plan_.images[image].persistent = true;
+    plan_.tables.push_back({id, image});
+  }
+
+  void addFieldTables() {
+    total_ = floats("Alpenglow moments", fieldMuS_, fieldR_ * layers_, true);
+    keep(TableId::Moments, total_);
+    plan_.bound[1] = total_;
+    if (!hasMie_) return;
+    source_ =
+        sources("Alpenglow source", vulkanFormat(half_ ? TableFormat::Half : TableFormat::Float));
+    keep(TableId::Source, source_);
+    plan_.bound[2] = plan_.bound[3] = source_;
+  }
+
   // What every order uses, and the images that orders leave to each other.
   void addPreparation() {
-    const uint32_t rows = rings_ * (1 + kFineRings) * c_.nodesR + c_.sourceGamma;
+    const uint32_t rows = rings_ * (1 + kFineRings) * c_.nodesR + (hasMie_ ? c_.sourceGamma : 0);
     rules_ = floats("Alpenglow rules", rings_ * kFineRings, 2);
     legendre_ = scalars("Alpenglow Legendre", harmonics_, rows);
-    rotations_ =
-        scalars("Alpenglow rotations", modesPerRing_ * modesPerRing_, modesPerRing_ * c_.nodesMuS);
     modes_ = floats("Alpenglow modes", modesPerRing_ * rings_ * kFineRings, nodes_);
     moments_ = floats("Alpenglow harmonics", harmonics_, nodes_);
-    turned_ = floats("Alpenglow turned harmonics", harmonics_, nodes_);
-    sourceModes_ = floats("Alpenglow source modes", modesPerRing_ * c_.sourceGamma, nodes_);
     sum_ = nodeLayers("Alpenglow sum");
     // Two, by turns: the tail asks for the last two.
     for (uint32_t i = 0; i < (orders_ > 2 ? 2u : 1u); ++i)
       plain_[i] = nodeLayers("Alpenglow plain order");
     nodeField_ = nodeLayers("Alpenglow order");
-    orderField_ = floats("Alpenglow order between", fieldMuS_, fieldR_ * kLayers, true);
-    orderSource_ = sources("Alpenglow order source", plan_.images[source_].format);
-    sourceSum_ = sources("Alpenglow source sum", VK_FORMAT_R32G32B32A32_SFLOAT);
-    plan_.images[sourceSum_].filtered = false;
+    orderField_ = floats("Alpenglow order between", fieldMuS_, fieldR_ * layers_, true);
     plan_.tables.push_back({TableId::OrderMoments, nodeField_});
-    plan_.tables.push_back({TableId::OrderSource, orderSource_});
+    if (hasMie_) addSourcePreparation();
 
     Stage rules =
         stage(ALPENGLOW_SHADER(kMomentRules), rings_ * kFineRings, 2, 6 * kFineRings * rings_);
@@ -167,7 +180,22 @@ class Builder {
     legendre.inputs = {{kRules, rules_}};
     legendre.outputs = {{legendre_}};
     plan_.addPass(plan_.addStage(legendre), "Y", 0);
+    if (hasMie_) addRotations();
+  }
 
+  // The images of what aerosols alone need.
+  void addSourcePreparation() {
+    rotations_ =
+        scalars("Alpenglow rotations", modesPerRing_ * modesPerRing_, modesPerRing_ * c_.nodesMuS);
+    turned_ = floats("Alpenglow turned harmonics", harmonics_, nodes_);
+    sourceModes_ = floats("Alpenglow source modes", modesPerRing_ * c_.sourceGamma, nodes_);
+    orderSource_ = sources("Alpenglow order source", plan_.images[source_].format);
+    sourceSum_ = sources("Alpenglow source sum", VK_FORMAT_R32G32B32A32_SFLOAT);
+    plan_.images[sourceSum_].filtered = false;
+    plan_.tables.push_back({TableId::OrderSource, orderSource_});
+  }
+
+  void addRotations() {
     const VkExtent3D& turns = plan_.images[rotations_].extent;
     Stage rotations =
         stage(ALPENGLOW_SHADER(kMomentRotations), turns.width, turns.height, 2 * c_.degree);
@@ -175,20 +203,24 @@ class Builder {
     plan_.addPass(plan_.addStage(rotations), "W", 0);
   }
 
-  // The five layers of each node.
-  uint32_t nodeLayers(const char* name) { return floats(name, c_.nodesMuS, c_.nodesR * kLayers); }
+  // The layers of each node.
+  uint32_t nodeLayers(const char* name) { return floats(name, c_.nodesMuS, c_.nodesR * layers_); }
 
   // L 1: along a ray that is cut about twice, each of two nodes of a panel reads T twice.
   uint32_t addSingle() {
     const uint32_t width = c_.azimuths * rings_ * kFineRings;
-    for (uint32_t i = 0; i < 3; ++i)
-      single_[i] = floats("Alpenglow single scattering", width, nodes_);
+    // Of molecules, aerosols and the ground; what there isn't is not stored either.
+    for (uint32_t i = 0; i < 3; ++i) {
+      const bool stored = i == 0 || (i == 1 ? hasMie_ : reflects_);
+      single_[i] = stored ? floats("Alpenglow single scattering", width, nodes_) : single_[0];
+    }
     Stage single =
-        stage(ALPENGLOW_SHADER(kMomentSingle), width, nodes_, uint64_t(c_.solverPanels) * 8);
+        stage(hasMie_ ? ALPENGLOW_SHADER(kMomentSingle) : ALPENGLOW_SHADER(kMomentSingleMolecules),
+              width, nodes_, uint64_t(c_.solverPanels) * 8);
     // The text of a ray's light reads field and source too, where there are such: here it never
     // does, but Vulkan asks for images.
-    single.inputs = {
-        {kDepth, t_}, {kField, orderField_}, {kSource, orderSource_}, {kRules, rules_}};
+    single.inputs = {{kDepth, t_}, {kField, orderField_}, {kRules, rules_}};
+    if (hasMie_) single.inputs.push_back({kSource, orderSource_});
     single.outputs = {{single_[0]}, {single_[1]}, {single_[2]}};
     return plan_.addStage(single);
   }
@@ -197,8 +229,10 @@ class Builder {
   uint32_t addLight() {
     const uint32_t width = c_.azimuths * rings_;
     Stage light =
-        stage(ALPENGLOW_SHADER(kMomentLight), width, nodes_, uint64_t(c_.solverPanels) * 24);
-    light.inputs = {{kDepth, t_}, {kField, orderField_}, {kSource, orderSource_}, {kRules, rules_}};
+        stage(hasMie_ ? ALPENGLOW_SHADER(kMomentLight) : ALPENGLOW_SHADER(kMomentLightMolecules),
+              width, nodes_, uint64_t(c_.solverPanels) * (hasMie_ ? 24 : 20));
+    light.inputs = {{kDepth, t_}, {kField, orderField_}, {kRules, rules_}};
+    if (hasMie_) light.inputs.push_back({kSource, orderSource_});
     light.outputs = {{light_}};
     return plan_.addStage(light);
   }
@@ -243,7 +277,7 @@ class Builder {
 
   uint32_t addField(bool first, uint32_t to) {
     Stage field = stage(ALPENGLOW_SHADER(kMomentField), c_.nodesMuS, c_.nodesR,
-                        uint64_t(c_.ringsSky) * (first ? kFineRings : 1) * 2 + 4 * kLayers);
+                        uint64_t(c_.ringsSky) * (first ? kFineRings : 1) * 2 + 4 * layers_);
     field.constants[0] = first;
     field.inputs = {{kModes, modes_}, {kMoments, moments_}, {kRules, rules_}};
     field.outputs = {{nodeField_}, {plain_[to]}, {sum_, !first}};
@@ -277,14 +311,15 @@ class Builder {
     struct Stages {
       uint32_t light, modes, harmonics, field, source;
     };
-    const uint32_t turned = addTurned(), sourceModes = addSourceModes();
+    const uint32_t turned = hasMie_ ? addTurned() : 0, sourceModes = hasMie_ ? addSourceModes() : 0;
     const uint32_t between = addBetween(orderField_);
     const Stages first = {addSingle(), addModes(true), addHarmonics(true), addField(true, 0),
-                          addSource(true)};
+                          hasMie_ ? addSource(true) : 0};
     Stages further[2] = {};
     if (orders_ > 2) {
       light_ = floats("Alpenglow light", c_.azimuths * rings_, nodes_);
-      const Stages any = {addLight(), addModes(false), addHarmonics(false), 0, addSource(false)};
+      const Stages any = {addLight(), addModes(false), addHarmonics(false), 0,
+                          hasMie_ ? addSource(false) : 0};
       for (uint32_t i = 0; i < (orders_ > 3 ? 2u : 1u); ++i) {
         further[i] = any;
         further[i].field = addField(false, 1 - i);
@@ -295,11 +330,11 @@ class Builder {
       plan_.addPass(s.light, "L", order);
       plan_.addPass(s.modes, "F", order);
       plan_.addPass(s.harmonics, "M", order);
-      plan_.addPass(turned, "R", order);
-      plan_.addPass(sourceModes, "H", order);
+      if (hasMie_) plan_.addPass(turned, "R", order);
+      if (hasMie_) plan_.addPass(sourceModes, "H", order);
       plan_.addPass(s.field, "N", order);
       plan_.addPass(between, "I", order);
-      plan_.addPass(s.source, "J", order + 1);
+      if (hasMie_) plan_.addPass(s.source, "J", order + 1);
     }
   }
 
@@ -308,25 +343,27 @@ class Builder {
     // Order n lies in plain_[(n - 1) % 2], and the last is N - 1. If it is the only one, it stands
     // for the order before too: there is no tail then that would ask for it.
     const uint32_t last = orders_ % 2, before = orders_ > 2 ? 1 - last : last;
-    Stage field = stage(ALPENGLOW_SHADER(kMomentFieldSum), c_.nodesMuS, c_.nodesR, 4 * kLayers);
+    Stage field = stage(ALPENGLOW_SHADER(kMomentFieldSum), c_.nodesMuS, c_.nodesR, 4 * layers_);
     field.inputs = {{kSum, sum_}, {kLast, plain_[last]}, {kBefore, plain_[before]}};
     field.outputs = {{nodeField_}};
+    plan_.addPass(plan_.addStage(field), "N sum", 0);
+    plan_.addPass(addBetween(total_), "I sum", 0);
+    if (!hasMie_) return;
     Stage source = sourceStage(ALPENGLOW_FORMAT_SHADER(kMomentSourceSum));
     source.inputs = {{kField, nodeField_},
                      {kSource, orderSource_},
                      {kSum, sourceSum_},
                      {kLast, plain_[last]},
                      {kBefore, plain_[before]}};
-    plan_.addPass(plan_.addStage(field), "N sum", 0);
-    plan_.addPass(addBetween(total_), "I sum", 0);
     plan_.addPass(plan_.addStage(source), "J sum", 0);
   }
 
   // None was solved.
   void addNoLight() {
-    Stage field = stage(ALPENGLOW_SHADER(kMomentFieldNone), fieldMuS_, fieldR_, kLayers);
+    Stage field = stage(ALPENGLOW_SHADER(kMomentFieldNone), fieldMuS_, fieldR_, layers_);
     field.outputs = {{total_}};
     plan_.addPass(plan_.addStage(field), "N sum", 0);
+    if (!hasMie_) return;
     plan_.addPass(plan_.addStage(sourceStage(ALPENGLOW_FORMAT_SHADER(kMomentSourceNone))), "J sum",
                   0);
   }
@@ -341,7 +378,10 @@ class Builder {
 
   MomentSettings c_;
   bool half_;
-  uint32_t orders_, nodes_, rings_, modesPerRing_, harmonics_, fieldR_, fieldMuS_;
+  uint32_t orders_;
+  EffectFlags without_;
+  bool hasMie_, reflects_;
+  uint32_t layers_, nodes_, rings_, modesPerRing_, harmonics_, fieldR_, fieldMuS_;
   SolverPlan plan_;
   uint32_t t_ = 0, total_ = 0, source_ = 0;
   uint32_t rules_ = 0, legendre_ = 0, rotations_ = 0;

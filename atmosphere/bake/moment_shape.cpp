@@ -113,6 +113,7 @@ physics_f64::MomentShape makeMomentShapeF64(const Parameters& parameters, const 
   s.solverPanels = c.solverPanels;
   s.viewPanels = c.viewPanels;
   s.tail = desc.orders == 0 ? 1.0 : 0.0;
+  s.layers = fieldLayers(desc);
   return s;
 }
 

@@ -27,6 +27,13 @@ inline constexpr uint32_t kLeastSunNodes = 4;
 /// air needs before the rest is a geometric series.
 uint32_t solvedOrders(const Parameters& parameters, const TableDesc& desc);
 
+/// Layers of the table of moments: momentShape's `layers`. E is the last, if anything wants it.
+inline uint32_t fieldLayers(const TableDesc& desc) {
+  constexpr EffectFlags kGround =
+      effectBit(Effect::GroundReflection) | effectBit(Effect::GroundIrradiance);
+  return (desc.without & kGround) == kGround ? 4 : 5;
+}
+
 /// How strongly the highest degrees of the harmonics are damped: MomentShape::taper.
 double degreeTaper(const Parameters& parameters);
 

@@ -45,6 +45,7 @@ inline constexpr uint32_t kStageConstants = 2;
 struct Stage {
   engine::Shader shader;
   bool constants[kStageConstants] = {};  ///< Specialization constants 0 ...
+  EffectFlags without = 0;               ///< What it is compiled without.
   uint32_t width = 0, height = 0, rows = 0;
   uint64_t unitsPerTexel = 0;  ///< Work units: about one table fetch each.
   std::vector<StageInput> inputs;

@@ -1,7 +1,9 @@
 #include "atmosphere/bake/resources.h"
 
+#include <algorithm>
 #include <new>
 
+#include "atmosphere/bake/effect_constants.h"
 #include "engine/sampler.h"
 
 namespace alpenglow::bake {
@@ -105,12 +107,14 @@ void Resources::destroy(Resources* resources) {
 
 Status Resources::pipeline(const Stage& stage, VkPipeline* out) {
   Key key;
-  key.first = stage.shader.code;
-  engine::SpecConstant constants[kStageConstants];
+  key.code = stage.shader.code;
+  key.without = stage.without;
+  engine::SpecConstant constants[kStageConstants + kEffectConstants];
   for (uint32_t i = 0; i < kStageConstants; ++i) {
-    key.second[i] = stage.constants[i];
+    key.constants[i] = stage.constants[i];
     constants[i] = engine::specBool(i, stage.constants[i]);
   }
+  std::ranges::copy(effectConstants(stage.without), constants + kStageConstants);
   const std::scoped_lock lock(mutex_);
   VkPipeline& slot = pipelines_[key];  // First, because it may throw.
   *out = slot;
@@ -119,7 +123,7 @@ Status Resources::pipeline(const Stage& stage, VkPipeline* out) {
   desc.shader = stage.shader;
   desc.layout = pipelineLayout_;
   desc.constants = constants;
-  desc.constantCount = kStageConstants;
+  desc.constantCount = kStageConstants + kEffectConstants;
   const Status status = engine::createComputePipeline(device_, desc, &slot);
   *out = slot;
   return status;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <atomic>
+#include <compare>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -55,7 +56,12 @@ class Resources {
   explicit Resources(engine::Device& device) : device_(device) {}
   Status makeLayouts();
 
-  using Key = std::pair<const uint32_t*, std::array<bool, kStageConstants>>;
+  struct Key {
+    const uint32_t* code = nullptr;
+    std::array<bool, kStageConstants> constants = {};
+    EffectFlags without = 0;
+    auto operator<=>(const Key&) const = default;
+  };
 
   engine::Device& device_;
   VkDescriptorSetLayout tableLayout_ = VK_NULL_HANDLE;

@@ -67,6 +67,7 @@ Status checkCombination(const engine::Device& device, const TableDesc& desc) {
     if (anyGiven(desc.moments, &MomentSettings::depthMu))
       return refuse("Standard", "MomentSettings");
     if (!allSuns(desc)) return refuse("Standard", "a range of suns");
+    if (desc.without != 0) return refuse("Standard", "TableDesc::without");
   }
   return Status::Ok;
 }
@@ -78,6 +79,20 @@ Status checkSuns(const engine::Device& device, const TableDesc& desc) {
                      "TableDesc has suns of zenith angles from %g to %g, but they must rise from 0 "
                      "to at most pi.",
                      from, to);
+}
+
+Status checkEffects(const engine::Device& device, const TableDesc& desc) {
+  if ((desc.without & ~kTableEffects) != 0) {
+    return device.fail(
+        Status::InvalidArgument, VK_SUCCESS,
+        "TableDesc::without is 0x%x, but may have bits of kTableEffects, 0x%x, alone.",
+        desc.without, kTableEffects);
+  }
+  if (hasEffect(desc.without, Effect::MultipleScattering) || desc.orders <= 1) return Status::Ok;
+  return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                     "TableDesc has %u orders, but is without Effect::MultipleScattering, whose "
+                     "tables hold order 1.",
+                     desc.orders);
 }
 
 Status checkSettings(const engine::Device& device, const MomentSettings& s, bool zeroIsDefault) {
@@ -132,10 +147,21 @@ Status checkStandardSizes(const engine::Device& device, const TableSizes& s) {
 
 }  // namespace
 
+Parameters simulated(const Parameters& parameters, EffectFlags without) {
+  Parameters result = parameters;
+  if (!hasEffect(without, Effect::Rayleigh)) result.rayleigh.present = false;
+  if (!hasEffect(without, Effect::Mie)) result.mie.present = false;
+  if (!hasEffect(without, Effect::Absorption)) result.absorption.present = false;
+  return result;
+}
+
 TableDesc completed(const Parameters& parameters, const TableDesc& desc) {
   TableDesc full = desc;
   if (desc.solver == Solver::Moments) {
     full.moments = momentSettings(parameters, desc.quality, desc.moments);
+    // Molecules ask for no more than the second moments.
+    if (!hasEffect(desc.without, Effect::Mie) && desc.moments.degree == 0) full.moments.degree = 2;
+    if (!hasEffect(desc.without, Effect::MultipleScattering)) full.orders = 1;
     if (desc.moments.nodesMuS == 0)
       full.moments.nodesMuS = nodesOfSunRange(parameters, desc, full.moments.nodesMuS);
     return full;
@@ -155,6 +181,7 @@ Status checkTableDesc(const engine::Device& device, const TableDesc& desc) {
   if (status == Status::Ok) status = checkCombination(device, desc);
   if (status == Status::Ok) status = checkSettings(device, desc.moments, true);
   if (status == Status::Ok) status = checkSuns(device, desc);
+  if (status == Status::Ok) status = checkEffects(device, desc);
   if (status != Status::Ok) return status;
   if (desc.orders > kMaxOrders) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,

@@ -96,6 +96,8 @@ Status Tables::recordPass(VkCommandBuffer commands, const bake::Pass& pass, uint
   for (const bake::StageInput& input : stage.inputs)
     barriers.image(images_[input.image], engine::kComputeSampled);
   for (const bake::StageOutput& output : stage.outputs) {
+    // An image stands for others that aren't there; once is enough.
+    if (&output != stage.outputs.data() && output.image == stage.outputs[0].image) continue;
     engine::Image& image = images_[output.image];
     if (output.accumulates) {
       barriers.image(image, engine::kComputeReadWrite);
@@ -156,10 +158,11 @@ Status Tables::missing(TableId id) const {
   const TableKind kind =
       known ? kTableKinds[index] : TableKind{"of an unknown TableId", true, true};
   const bool hasIt = desc_.solver == Solver::Moments ? kind.moments : kind.standard;
-  const char* needs = !known             ? "one of the enumeration"
-                      : !hasIt           ? (kind.moments ? "Solver::Moments" : "Solver::Standard")
-                      : isOrderTable(id) ? "TableDesc::keepOrders"
-                                         : "MieStorage::Full";
+  const char* needs = !known   ? "one of the enumeration"
+                      : !hasIt ? (kind.moments ? "Solver::Moments" : "Solver::Standard")
+                      : isOrderTable(id) && !desc_.keepOrders ? "TableDesc::keepOrders"
+                      : desc_.solver == Solver::Moments ? "effects that these tables are without"
+                                                        : "MieStorage::Full";
   return device_.fail(Status::Unsupported, VK_SUCCESS,
                       "These tables have no table %s: it needs %s.", kind.name, needs);
 }

@@ -17,8 +17,11 @@ namespace alpenglow::bake {
 /// Ok, or a sentence to the diagnostic that names the wrong field of the description, as the host
 /// gave it.
 Status checkTableDesc(const engine::Device& device, const TableDesc& desc);
-/// The description with its zeros replaced by defaults; but Moments keep orders == 0: all of them.
+/// The description with its zeros replaced by defaults, for parameters as simulated; but Moments
+/// keep orders == 0: all of them.
 TableDesc completed(const Parameters& parameters, const TableDesc& desc);
+/// The parameters less what is not simulated.
+Parameters simulated(const Parameters& parameters, EffectFlags without);
 /// Ok, or a sentence when a size of a completed description is out of range on this device.
 Status checkSizes(const engine::Device& device, const TableDesc& desc);
 

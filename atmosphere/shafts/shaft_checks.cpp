@@ -53,6 +53,12 @@ Status checkShaftsDesc(const engine::Device& device, const ShaftsDesc& desc) {
                        static_cast<uint32_t>(desc.method), static_cast<uint32_t>(desc.depth),
                        static_cast<uint32_t>(desc.projection));
   }
+  if ((desc.without & ~(kTableEffects | kViewEffects)) != 0) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "ShaftsDesc::without is 0x%x, but may have bits of kTableEffects and "
+                       "kViewEffects alone.",
+                       desc.without);
+  }
   if (desc.projection == Projection::Fisheye) {
     return device.fail(Status::Unsupported, VK_SUCCESS,
                        "ShaftsDesc::projection is Fisheye, but shadows are drawn as triangles: "

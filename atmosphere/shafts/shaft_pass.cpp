@@ -3,8 +3,6 @@
 #include <alpenglow/shaders/shaft_caster.h>
 #include <alpenglow/shaders/shaft_cull.h>
 #include <alpenglow/shaders/shaft_surface.h>
-#include <alpenglow/shaders/shaft_surface_fragment.h>
-#include <alpenglow/shaders/shaft_surface_fragment_volume.h>
 #include <alpenglow/shaders/shaft_volume_fragment.h>
 #include <alpenglow/shaders/shaft_volume_geometry.h>
 
@@ -12,7 +10,9 @@
 #include <limits>
 #include <new>
 
+#include "atmosphere/bake/effect_constants.h"
 #include "atmosphere/sky/air_set.h"
+#include "atmosphere/sky/shader_choice.h"
 #include "engine/barriers.h"
 #include "engine/structure.h"
 
@@ -194,11 +194,7 @@ Status Shafts::makePipeline(bool fromVolume, VkPipeline* out) {
   desc.colors[0] = {targets_[0].desc.format, engine::Blend::Add};
   if (exact()) {
     desc.vertex = {s::kShaftSurface, sizeof s::kShaftSurface, "surface.vert"};
-    desc.fragment =
-        fromVolume ? engine::Shader{s::kShaftSurfaceFragmentVolume,
-                                    sizeof s::kShaftSurfaceFragmentVolume, "surface.frag (volume)"}
-                   : engine::Shader{s::kShaftSurfaceFragment, sizeof s::kShaftSurfaceFragment,
-                                    "surface.frag"};
+    desc.fragment = sky::surfaceShader(desc_.without, fromVolume);
     desc.topology = engine::Topology::TriangleStrip;
   } else {
     desc.vertex = {s::kShaftCaster, sizeof s::kShaftCaster, "caster.vert"};
@@ -208,11 +204,12 @@ Status Shafts::makePipeline(bool fromVolume, VkPipeline* out) {
     desc.vertices = {desc_.vertexStride, desc_.vertexOffset};
     desc.topology = engine::Topology::TrianglesWithAdjacency;
   }
-  const engine::SpecConstant constants[] = {
+  engine::SpecConstant constants[2 + bake::kEffectConstants] = {
       engine::specBool(6, desc_.projection == Projection::Orthographic),
       engine::specBool(7, reversed)};
+  std::ranges::copy(bake::effectConstants(desc_.without), constants + 2);
   desc.constants = constants;
-  desc.constantCount = 2;
+  desc.constantCount = 2 + bake::kEffectConstants;
   desc.layout = layout_;
   desc.depthFormat = desc_.sceneDepth.format;
   desc.stencil = false;

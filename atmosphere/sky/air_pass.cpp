@@ -1,6 +1,9 @@
 // Aerial perspective of a view: the part of View that draws over a host's scene.
 #include <alpenglow/shaders/sky_vertex.h>
 
+#include <algorithm>
+
+#include "atmosphere/bake/effect_constants.h"
 #include "atmosphere/sky/air_set.h"
 #include "atmosphere/sky/shader_choice.h"
 #include "atmosphere/sky/sky_pass.h"
@@ -19,7 +22,8 @@ Status View::makeAir() {
 }
 
 Status View::makeAirPipelines() {
-  Status status = makeAirPipeline(false, &airPipeline_);
+  Status status = Status::Ok;
+  if (!desc_.alwaysSliced || volume_ == nullptr) status = makeAirPipeline(false, &airPipeline_);
   if (status == Status::Ok && volume_ != nullptr)
     status = makeAirPipeline(true, &airVolumePipeline_);
   return status;
@@ -32,13 +36,14 @@ Status View::makeAirPipeline(bool fromVolume, VkPipeline* out) {
   engine::GraphicsPipelineDesc desc;
   desc.vertex = {s::kSkyVertex, sizeof s::kSkyVertex, "sky.vert"};
   desc.fragment = sky::airShader(desc_.solver, desc_.without, fromVolume, shafts);
-  const engine::SpecConstant constants[] = {
+  engine::SpecConstant constants[5 + bake::kEffectConstants] = {
       engine::specFloat(4, reversed ? 0.0f : 1.0f),
       engine::specBool(6, desc_.projection == Projection::Orthographic),
       engine::specUint(8, shafts_.method), engine::specUint(9, shafts_.samples),
       engine::specFloat(10, shafts_.multipleLoss)};
+  std::ranges::copy(bake::effectConstants(desc_.without), constants + 5);
   desc.constants = constants;
-  desc.constantCount = 5;
+  desc.constantCount = 5 + bake::kEffectConstants;
   desc.layout = layout_;
   desc.colors[0] = {desc_.colorFormat, engine::Blend::DualSource};
   desc.depthFormat = desc_.depthFormat;
@@ -63,6 +68,8 @@ Status View::recordAir(VkCommandBuffer commands, const Tables& tables, const Sky
   Status status = sky::checkDepthRange(device_, desc_.projection, draw.depth);
   const bool fromVolume = airSet(tables, draw) != VK_NULL_HANDLE;
   if (status == Status::Ok && fromVolume) status = volume_->assertReadable();
+  if (status == Status::Ok && !fromVolume && airPipeline_ == VK_NULL_HANDLE)
+    status = refuseUnsliced("recordAir");
   if (status != Status::Ok) return status;
 
   const engine::Dispatch& vk = device_.vk();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <new>
 
+#include "atmosphere/bake/effect_constants.h"
 #include "atmosphere/sky/parts.h"
 #include "atmosphere/sky/shader_choice.h"
 
@@ -15,9 +16,10 @@ struct VolumeConstants {
   float altitude, muS, horizon, span, bend, extinction, startHeight, height;
 };
 
+/// Seen from inside, half of the columns are in use.
 constexpr VkExtent3D kExtent = {physics_f32::kAirColumns, physics_f32::kAirRows,
                                 physics_f32::kAirDistances};
-static_assert(kExtent.width % 8 == 0 && kExtent.height % 8 == 0);
+static_assert(kExtent.width % 16 == 0 && kExtent.height % 8 == 0);
 
 /// Readable by whatever draws or queries.
 constexpr ImageState kSampled = {
@@ -44,6 +46,12 @@ AirLookup airLookup(const Parameters& parameters, const SkyDraw& draw) {
   for (int i = 0; i < 3; ++i) lookup.up[i] = draw.camera.position_m[i] / r;
   sunAzimuth(draw, lookup.sunAzimuth);
   return lookup;
+}
+
+VkExtent3D AirVolume::extentFor(EffectFlags without) {
+  VkExtent3D extent = kExtent;
+  if (!hasEffect(without, Effect::SpaceViews)) extent.width /= 2;
+  return extent;
 }
 
 Status AirVolume::create(bake::Resources& resources, EffectFlags without, AirVolume** out) {
@@ -87,7 +95,7 @@ Status AirVolume::make() {
     engine::ImageDesc desc;
     desc.type = VK_IMAGE_TYPE_3D;
     desc.format = bake::vulkanFormat(format_);
-    desc.extent = kExtent;
+    desc.extent = extentFor(without_);
     desc.usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     desc.name = "Alpenglow air volume";
     const Status made = engine::createImage(device_, desc, images[i]);
@@ -122,8 +130,11 @@ Status AirVolume::makePipeline() {
       engine::createPipelineLayout(device_, sets, 2, &range, 1, "Alpenglow air volume", &layout_);
   if (status != Status::Ok) return status;
   engine::ComputePipelineDesc desc;
-  desc.shader = volumeShader(Solver::Moments, without_, format_);
+  desc.shader = volumeShader(without_, format_);
   desc.layout = layout_;
+  const auto constants = bake::effectConstants(without_);
+  desc.constants = constants.data();
+  desc.constantCount = bake::kEffectConstants;
   return engine::createComputePipeline(device_, desc, &pipeline_);
 }
 

@@ -25,6 +25,8 @@ class AirVolume {
 
   static Status create(bake::Resources& resources, EffectFlags without, AirVolume** out);
   static void destroy(AirVolume* volume, const FrameInfo& frame);
+  /// Of each of its images, for a view without these effects.
+  static VkExtent3D extentFor(EffectFlags without);
 
   /// Both have been checked; tables of Solver::Moments. Fills the volume and leaves it readable by
   /// fragment and compute shaders.

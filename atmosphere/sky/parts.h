@@ -25,6 +25,13 @@ constexpr uint32_t variant(const Visible& v) {
   return (v.air ? v.ground ? 2u : 1u : 0u) + (v.disc ? 3u : 0u);
 }
 
+/// Whether a view without these effects draws such pixels.
+constexpr bool drawn(EffectFlags without, const Visible& v) {
+  return (v.air || hasEffect(without, Effect::SpaceViews)) &&
+         (!v.ground || hasEffect(without, Effect::Ground)) &&
+         (!v.disc || hasEffect(without, Effect::SunDisc));
+}
+
 /// Of a viewport's pixels, counted from its corner. Conservative, from the cones around them, the
 /// planet, the air and the sun.
 Visible visible(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw,

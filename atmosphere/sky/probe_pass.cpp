@@ -1,9 +1,11 @@
 #include "atmosphere/sky/probe_pass.h"
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 #include <new>
 
+#include "atmosphere/bake/effect_constants.h"
 #include "atmosphere/model/query.h"
 #include "atmosphere/sky/shader_choice.h"
 
@@ -80,7 +82,7 @@ void ProbePass::destroy(ProbePass* pass) {
   if (pass == nullptr) return;
   const engine::Device& device = pass->device_;
   const engine::Dispatch& vk = device.vk();
-  for (VkPipeline pipeline : pass->pipelines_)
+  for (const auto& [key, pipeline] : pass->pipelines_)
     vk.DestroyPipeline(device.handle(), pipeline, device.allocator());
   vk.DestroyPipelineLayout(device.handle(), pass->layout_, device.allocator());
   vk.DestroyDescriptorSetLayout(device.handle(), pass->setLayout_, device.allocator());
@@ -96,22 +98,25 @@ Status ProbePass::makeLayouts() {
   return engine::createPipelineLayout(device_, sets, 2, &range, 1, "Alpenglow probe", &layout_);
 }
 
-Status ProbePass::pipeline(const TableDesc& tables, VkPipeline* out) {
+Status ProbePass::pipeline(const TableDesc& tables, VkPipeline* out) try {
   const std::scoped_lock lock(mutex_);
-  const bool moments = tables.solver == Solver::Moments;
-  VkPipeline& slot = pipelines_[moments ? 0 : 1 + static_cast<uint32_t>(tables.mie)];
+  VkPipeline& slot = pipelines_[{tables.solver, tables.mie, tables.without}];
   Status status = Status::Ok;
   if (slot == VK_NULL_HANDLE) {
-    const engine::SpecConstant packed = engine::specBool(0, tables.mie == MieStorage::Packed);
+    engine::SpecConstant constants[1 + bake::kEffectConstants] = {
+        engine::specBool(0, tables.mie == MieStorage::Packed)};
+    std::ranges::copy(bake::effectConstants(tables.without), constants + 1);
     engine::ComputePipelineDesc desc;
     desc.shader = probeShader(tables.solver, tables.without);
     desc.layout = layout_;
-    desc.constants = &packed;
-    desc.constantCount = 1;
+    desc.constants = constants;
+    desc.constantCount = 1 + bake::kEffectConstants;
     status = engine::createComputePipeline(device_, desc, &slot);
   }
   *out = slot;
   return status;
+} catch (const std::bad_alloc&) {  // No exception may reach the host.
+  return device_.fail(Status::OutOfHostMemory, VK_SUCCESS, "A probe found no host memory.");
 }
 
 Status ProbePass::prepareCall(const Tables& tables, const ProbeQuery* queries, uint32_t count,

@@ -3,7 +3,9 @@
 
 #include <alpenglow/probe.h>
 
+#include <map>
 #include <mutex>
+#include <tuple>
 
 #include "atmosphere/bake/table_set.h"
 
@@ -50,7 +52,8 @@ class ProbePass {
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   std::mutex mutex_;
-  VkPipeline pipelines_[3] = {};  ///< Of moments, of full and packed Mie; made when first used.
+  /// By what the tables hold; made when first used.
+  std::map<std::tuple<Solver, MieStorage, EffectFlags>, VkPipeline> pipelines_;
 };
 
 }  // namespace alpenglow::sky

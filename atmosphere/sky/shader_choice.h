@@ -18,8 +18,10 @@ engine::Shader skyShader(Solver solver, EffectFlags without, const SkyText& text
 engine::Shader airShader(Solver solver, EffectFlags without, bool volume, bool shafts);
 /// Fills a sky slice of texels of this format.
 engine::Shader sliceShader(Solver solver, EffectFlags without, TableFormat format);
-/// Fills an air volume.
-engine::Shader volumeShader(Solver solver, EffectFlags without, TableFormat format);
+/// Fills an air volume; of Solver::Moments, as the next.
+engine::Shader volumeShader(EffectFlags without, TableFormat format);
+/// The surface between light and shadow; `volume`: reads an air volume.
+engine::Shader surfaceShader(EffectFlags without, bool volume);
 engine::Shader probeShader(Solver solver, EffectFlags without);
 
 }  // namespace alpenglow::sky

@@ -2,94 +2,13 @@
 
 #include <alpenglow/shaders/sky_vertex.h>
 
-#include <bit>
+#include <algorithm>
 #include <new>
 
+#include "atmosphere/bake/effect_constants.h"
 #include "atmosphere/sky/shader_choice.h"
 
 namespace alpenglow {
-namespace sky {
-
-namespace {
-
-Status checkSceneDepth(const engine::Device& device, const ViewDesc& desc) {
-  const SceneDepth& scene = desc.sceneDepth;
-  if (scene.view == VK_NULL_HANDLE) return Status::Ok;
-  if (scene.extent.width == 0 || scene.extent.height == 0 ||
-      desc.samples != VK_SAMPLE_COUNT_1_BIT || desc.projection == Projection::Fisheye) {
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "ViewDesc::sceneDepth has %u x %u pixels, for a view of %u samples and "
-                       "projection %u, but needs its size, one sample and no fisheye.",
-                       scene.extent.width, scene.extent.height, static_cast<uint32_t>(desc.samples),
-                       static_cast<uint32_t>(desc.projection));
-  }
-  if ((device.formatProperties(desc.colorFormat).optimalTilingFeatures &
-       VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) == 0) {
-    return device.fail(Status::Unsupported, VK_SUCCESS,
-                       "ViewDesc::colorFormat is VkFormat %d, which this device can't blend, but "
-                       "aerial perspective is blended over ViewDesc::sceneDepth's picture.",
-                       static_cast<int>(desc.colorFormat));
-  }
-  return Status::Ok;
-}
-
-}  // namespace
-
-Status checkViewDesc(const engine::Device& device, const ViewDesc& desc) {
-  const VkFormatFeatureFlags features =
-      device.formatProperties(desc.colorFormat).optimalTilingFeatures;
-  if (desc.colorFormat == VK_FORMAT_UNDEFINED ||
-      (features & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT) == 0) {
-    return device.fail(Status::Unsupported, VK_SUCCESS,
-                       "ViewDesc::colorFormat is VkFormat %d, but must be one that this device can "
-                       "render to.",
-                       static_cast<int>(desc.colorFormat));
-  }
-  const bool depth = desc.depthFormat != VK_FORMAT_UNDEFINED;
-  if (depth && (device.formatProperties(desc.depthFormat).optimalTilingFeatures &
-                VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) == 0) {
-    return device.fail(Status::Unsupported, VK_SUCCESS,
-                       "ViewDesc::depthFormat is VkFormat %d, but must be a depth format of this "
-                       "device, or VK_FORMAT_UNDEFINED for none.",
-                       static_cast<int>(desc.depthFormat));
-  }
-  const VkPhysicalDeviceLimits& limits = device.limits();
-  const VkSampleCountFlags counts =
-      limits.framebufferColorSampleCounts &
-      (depth ? limits.framebufferDepthSampleCounts : ~VkSampleCountFlags{0});
-  if ((counts & desc.samples) == 0 || !std::has_single_bit(static_cast<uint32_t>(desc.samples))) {
-    return device.fail(Status::Unsupported, VK_SUCCESS,
-                       "ViewDesc::samples is %u, but must be one of this device's sample counts, "
-                       "the bits of 0x%x.",
-                       static_cast<uint32_t>(desc.samples), counts);
-  }
-  if (desc.viewMask != 0) {
-    return device.fail(Status::Unsupported, VK_SUCCESS,
-                       "ViewDesc::viewMask is 0x%x, but must be 0: this version draws one view "
-                       "at a time.",
-                       desc.viewMask);
-  }
-  if (desc.projection > Projection::Orthographic || desc.depth > DepthConvention::Reversed ||
-      desc.mie > MieStorage::Packed || desc.solver > Solver::Standard) {
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "ViewDesc has projection %u, depth %u, mie %u and solver %u, but the "
-                       "greatest are 2, 1, 1 and 1.",
-                       static_cast<uint32_t>(desc.projection), static_cast<uint32_t>(desc.depth),
-                       static_cast<uint32_t>(desc.mie), static_cast<uint32_t>(desc.solver));
-  }
-  if (desc.groundAlbedo.view != VK_NULL_HANDLE &&
-      (desc.groundAlbedo.sampler == VK_NULL_HANDLE || desc.groundAlbedo.height == 0)) {
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "ViewDesc::groundAlbedo has a view with %s sampler and height %u, but "
-                       "needs a sampler and the image's size.",
-                       desc.groundAlbedo.sampler == VK_NULL_HANDLE ? "no" : "a",
-                       desc.groundAlbedo.height);
-  }
-  return checkSceneDepth(device, desc);
-}
-
-}  // namespace sky
-
 inline namespace v1 {
 
 Status View::create(bake::Resources& resources, const ViewDesc& desc, const sky::ShaftSet& shafts,
@@ -103,7 +22,8 @@ Status View::create(bake::Resources& resources, const ViewDesc& desc, const sky:
   ++resources.liveViews;
   Status status = view->makeSlice();
   if (status == Status::Ok) status = view->makeLayout();
-  if (status == Status::Ok) status = view->makePipelines(false, view->pipelines_);
+  if (status == Status::Ok && !desc.alwaysSliced)
+    status = view->makePipelines(false, view->pipelines_);
   if (status == Status::Ok && view->slice_ != nullptr)
     status = view->makePipelines(true, view->slicePipelines_);
   if (status == Status::Ok && view->hasAir()) status = view->makeAirPipelines();
@@ -152,9 +72,10 @@ Status View::makeSlice() {
                         : tables.solver != desc_.solver             ? "of another solver"
                                                                     : "with another MieStorage");
   }
+  if (tables.without != (desc_.without & kTableEffects)) return refuseEffects(tables.without);
   desc_.skySlice = nullptr;  // Only their shape counts: they may be destroyed before the view.
   if (desc_.projection == Projection::Orthographic) return Status::Ok;  // An observer a pixel.
-  return sky::SkySlice::create(resources_, tables, &slice_);
+  return sky::SkySlice::create(resources_, tables, desc_.without, &slice_);
 }
 
 // Set 1 of the fragment shaders: the albedo map at binding 0, the slice at 1 and 2, the scene's
@@ -227,9 +148,9 @@ Status View::makePipelines(bool slice, VkPipeline* pipelines) {
   desc.subpass = desc_.subpass;
   desc.depthTest = desc_.depthFormat != VK_FORMAT_UNDEFINED;
   desc.depthCompare = reversed ? VK_COMPARE_OP_GREATER_OR_EQUAL : VK_COMPARE_OP_LESS_OR_EQUAL;
-  const VkExtent3D texels = slice ? slice_->extent() : VkExtent3D{};
   for (const sky::Visible seen : sky::kCombinations) {
-    const engine::SpecConstant constants[] = {
+    if (!sky::drawn(desc_.without, seen)) continue;
+    engine::SpecConstant constants[12 + bake::kEffectConstants] = {
         engine::specBool(0, desc_.mie == MieStorage::Packed),
         engine::specBool(1, desc_.projection == Projection::Fisheye),
         engine::specBool(2, seen.ground),
@@ -240,10 +161,11 @@ Status View::makePipelines(bool slice, VkPipeline* pipelines) {
         engine::specUint(8, shafts_.method),
         engine::specUint(9, shafts_.samples),
         engine::specFloat(10, shafts_.multipleLoss),
-        engine::specFloat(11, static_cast<float>(texels.width)),
-        engine::specFloat(12, static_cast<float>(texels.height))};
+        engine::specFloat(11, static_cast<float>(slice ? slice_->columns() : 0)),
+        engine::specFloat(12, static_cast<float>(slice ? slice_->rows() : 0))};
+    std::ranges::copy(bake::effectConstants(desc_.without), constants + 12);
     desc.constants = constants;
-    desc.constantCount = 12;
+    desc.constantCount = 12 + bake::kEffectConstants;
     const Status status =
         engine::createGraphicsPipeline(device_, desc, &pipelines[sky::variant(seen)]);
     if (status != Status::Ok) return status;
@@ -271,7 +193,24 @@ Status View::checkRecord(const Tables& tables, const SkyDraw& draw, const char* 
                         tables.desc().mie == MieStorage::Full ? "in full" : "packed",
                         desc_.mie == MieStorage::Full ? "in full" : "packed");
   }
-  return tables.assertReadable();
+  if (tables.desc().without != (desc_.without & kTableEffects))
+    return refuseEffects(tables.desc().without);
+  const Status seen = sky::checkDrawnEffects(device_, tables.parameters(), desc_, draw);
+  return seen == Status::Ok ? tables.assertReadable() : seen;
+}
+
+Status View::refuseEffects(EffectFlags tables) const {
+  return device_.fail(Status::InvalidArgument, VK_SUCCESS,
+                      "The tables are without the effects 0x%x (TableDesc::without), but the view "
+                      "draws tables without 0x%x (ViewDesc::without): they must agree.",
+                      tables, desc_.without & kTableEffects);
+}
+
+Status View::refuseUnsliced(const char* call) const {
+  return device_.fail(Status::InvalidArgument, VK_SUCCESS,
+                      "%s got a draw that no recordSkySlice came before, but the view is "
+                      "alwaysSliced: record the slice of these tables, camera and sun first.",
+                      call);
 }
 
 Status View::recordSlice(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw) {
@@ -300,6 +239,10 @@ Status View::recordSky(VkCommandBuffer commands, const Tables& tables, const Sky
   const bool fromSlice = slice_ != nullptr && slice_->serves(tables, draw);
   Status status = fromSlice ? slice_->assertReadable() : Status::Ok;
   if (fromSlice && status == Status::Ok && volume_ != nullptr) status = volume_->assertReadable();
+  if (!fromSlice && desc_.alwaysSliced) status = refuseUnsliced("recordSky");
+  if (status != Status::Ok) return status;
+  const sky::Parts parts = sky::cut(tables.parameters(), desc_, draw);
+  status = sky::checkParts(device_, desc_, parts);
   if (status != Status::Ok) return status;
 
   const engine::Dispatch& vk = device_.vk();
@@ -308,8 +251,7 @@ Status View::recordSky(VkCommandBuffer commands, const Tables& tables, const Sky
   bindSets(commands, tables);
   vk.CmdPushConstants(commands, layout_, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof constants,
                       &constants);
-  drawParts(commands, sky::cut(tables.parameters(), desc_, draw), draw.viewport.offset,
-            fromSlice ? slicePipelines_ : pipelines_);
+  drawParts(commands, parts, draw.viewport.offset, fromSlice ? slicePipelines_ : pipelines_);
   return Status::Ok;
 }
 

@@ -57,6 +57,10 @@ Status checkDepthRange(const engine::Device& device, Projection projection,
 /// A unit vector, or a sentence with its name.
 Status checkDirection(const engine::Device& device, const char* name, const double direction[3]);
 Status checkViewDesc(const engine::Device& device, const ViewDesc& desc);
+/// Ok, or a sentence when the draw's camera, or a part of it, sees what the view is without.
+Status checkDrawnEffects(const engine::Device& device, const Parameters& parameters,
+                         const ViewDesc& desc, const SkyDraw& draw);
+Status checkParts(const engine::Device& device, const ViewDesc& desc, const Parts& parts);
 
 }  // namespace sky
 
@@ -90,6 +94,8 @@ struct View {
   Status makeLayout();
   Status makeSet(const VkDescriptorSetLayoutBinding* bindings, uint32_t count);
   Status makePipelines(bool slice, VkPipeline* pipelines);
+  Status refuseEffects(EffectFlags tables) const;
+  Status refuseUnsliced(const char* call) const;
   void bindSets(VkCommandBuffer commands, const Tables& tables);
   /// A draw for each part, ordered by pipeline.
   void drawParts(VkCommandBuffer commands, const sky::Parts& parts, const VkOffset2D& corner,

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <new>
 
+#include "atmosphere/bake/effect_constants.h"
 #include "atmosphere/sky/shader_choice.h"
 
 namespace alpenglow::sky {
@@ -42,15 +43,21 @@ bool RecordedFor::is(const Tables& tables, const SkyDraw& draw) const {
          std::equal(sun_, sun_ + 3, draw.sun.direction);
 }
 
-VkExtent3D SkySlice::extentFor(const TableDesc& desc) {
-  return desc.solver == Solver::Moments
-             ? momentSlice(desc.quality)
-             : VkExtent3D{desc.sizes.scatteringNu, desc.sizes.scatteringMu, 1};
+VkExtent3D SkySlice::extentFor(const TableDesc& desc, EffectFlags without) {
+  if (desc.solver != Solver::Moments) return {desc.sizes.scatteringNu, desc.sizes.scatteringMu, 1};
+  VkExtent3D extent = momentSlice(desc.quality);
+  if (!hasEffect(without, Effect::SpaceViews)) extent.width /= 2;
+  return extent;
 }
 
-Status SkySlice::create(bake::Resources& resources, const TableDesc& tables, SkySlice** out) {
+uint32_t SkySlice::countFor(const TableDesc& desc, EffectFlags without) {
+  return desc.mie == MieStorage::Full && hasEffect(without, Effect::Mie) ? 2 : 1;
+}
+
+Status SkySlice::create(bake::Resources& resources, const TableDesc& tables, EffectFlags without,
+                        SkySlice** out) {
   *out = nullptr;
-  auto* slice = new (std::nothrow) SkySlice(resources, tables);
+  auto* slice = new (std::nothrow) SkySlice(resources, tables, without);
   if (slice == nullptr) {
     return resources.device().fail(Status::OutOfHostMemory, VK_SUCCESS,
                                    "A sky slice found no host memory.");
@@ -120,12 +127,13 @@ Status SkySlice::makePipeline(TableFormat format) {
   engine::ComputePipelineDesc desc;
   desc.shader = sliceShader(solver_, without_, format);
   desc.layout = layout_;
-  const engine::SpecConstant constants[] = {
+  engine::SpecConstant constants[3 + bake::kEffectConstants] = {
       engine::specBool(0, mie_ == MieStorage::Packed),
-      engine::specFloat(11, static_cast<float>(extent_.width)),
+      engine::specFloat(11, static_cast<float>(columns_)),
       engine::specFloat(12, static_cast<float>(extent_.height))};
+  std::ranges::copy(bake::effectConstants(without_), constants + 3);
   desc.constants = constants;
-  desc.constantCount = 3;
+  desc.constantCount = 3 + bake::kEffectConstants;
   return engine::createComputePipeline(device_, desc, &pipeline_);
 }
 
@@ -157,10 +165,9 @@ Status SkySlice::record(VkCommandBuffer commands, const Tables& tables, const Sk
                            nullptr);
   vk.CmdPushConstants(commands, layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, sizeof constants,
                       &constants);
-  const uint32_t columns =
-      solver_ == Solver::Moments
-          ? static_cast<uint32_t>(physics_f64::sliceAzimuths(view, extent_.width))
-          : extent_.width;
+  const uint32_t columns = solver_ == Solver::Moments
+                               ? static_cast<uint32_t>(physics_f64::sliceAzimuths(view, columns_))
+                               : extent_.width;
   vk.CmdDispatch(commands, (columns + 7) / 8, (extent_.height + 7) / 8, 1);
   ++device_.counters().dispatches;
 

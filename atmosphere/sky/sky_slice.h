@@ -36,14 +36,18 @@ class RecordedFor {
 /// Owned by a view; externally synchronised.
 class SkySlice {
  public:
-  /// For tables of this description.
-  static Status create(bake::Resources& resources, const TableDesc& desc, SkySlice** out);
+  /// For tables of this description, and a view without these effects.
+  static Status create(bake::Resources& resources, const TableDesc& desc, EffectFlags without,
+                       SkySlice** out);
+  /// Texels of an image of it, and how many there are.
+  static VkExtent3D extentFor(const TableDesc& desc, EffectFlags without);
+  static uint32_t countFor(const TableDesc& desc, EffectFlags without);
   static void destroy(SkySlice* slice, const FrameInfo& frame);
 
   /// Moments: any tables, whatever their quality.
   bool fits(const Tables& tables) const {
     if (solver_ == Solver::Moments) return true;
-    const VkExtent3D other = extentFor(tables.desc());
+    const VkExtent3D other = extentFor(tables.desc(), without_);
     return other.width == extent_.width && other.height == extent_.height;
   }
   /// Both have been checked. Fills the slice and leaves it readable by fragment shaders.
@@ -60,19 +64,21 @@ class SkySlice {
   /// packed the first again, so that each binding has an image.
   const engine::Image& image() const { return images_[0]; }
   const engine::Image& mieImage() const { return images_[count_ - 1]; }
-  const VkExtent3D& extent() const { return extent_; }
+  /// Columns that sliceGrid counts, and rows.
+  uint32_t columns() const { return columns_; }
+  uint32_t rows() const { return extent_.height; }
   Status assertReadable() const;
 
  private:
-  SkySlice(bake::Resources& resources, const TableDesc& desc)
+  SkySlice(bake::Resources& resources, const TableDesc& desc, EffectFlags without)
       : resources_(resources),
         device_(resources.device()),
         solver_(desc.solver),
-        without_(desc.without),
+        without_(without),
         mie_(desc.mie),
-        extent_(extentFor(desc)),
-        count_(mie_ == MieStorage::Full ? 2 : 1) {}
-  static VkExtent3D extentFor(const TableDesc& desc);
+        extent_(extentFor(desc, without)),
+        columns_(extentFor(desc, 0).width),
+        count_(countFor(desc, without)) {}
   Status make();
   Status makePipeline(TableFormat format);
 
@@ -82,6 +88,7 @@ class SkySlice {
   EffectFlags without_;
   MieStorage mie_;
   VkExtent3D extent_;
+  uint32_t columns_;
   uint32_t count_;
   engine::Image images_[2];
   engine::MemoryBlock block_;

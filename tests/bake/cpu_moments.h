@@ -40,7 +40,7 @@ class Solver {
   void setNodes(const DoubleTable& nodes) {
     nodes_ = nodes;
     const int rows = int(shape_.fieldR);
-    fill(&field_, int(shape_.fieldMuS), rows * int(momentLayers()), [&](int x, int y) {
+    fill(&field_, int(shape_.fieldMuS), rows * int(shape_.layers), [&](int x, int y) {
       return interpolatedNode(shape_, x, y % rows, y / rows * int(shape_.nodesR));
     });
   }

@@ -61,7 +61,7 @@ void AirTest::makeObjects() {
   bake::Resources& resources = *context()->bake;
   engine::Device& d = resources.device();
   o.device = &d;
-  ASSERT_EQ(sky::AirVolume::create(resources, EffectFlags{0}, &o.volume), Status::Ok) << message();
+  ASSERT_EQ(sky::AirVolume::create(resources, 0, &o.volume), Status::Ok) << message();
   ASSERT_EQ(engine::createSetLayout(d, kImages, 3, "air images", &o.imageLayout), Status::Ok);
   ASSERT_EQ(engine::createSetLayout(d, kBuffers, 2, "air buffers", &o.bufferLayout), Status::Ok);
   const engine::PoolPart parts[] = {{kImages, 3, 1}, {kBuffers, 2, 1}};

@@ -37,6 +37,10 @@ inline constexpr EffectFlags kTableEffects =
 inline constexpr EffectFlags kViewEffects =
     effectBit(Effect::Ground) | effectBit(Effect::SunDisc) | effectBit(Effect::SpaceViews);
 
+constexpr bool hasEffect(EffectFlags without, Effect effect) {
+  return (without & effectBit(effect)) == 0;
+}
+
 /// As files spell it: "ground_irradiance". Never null; "" past the end.
 const char* effectName(Effect effect);
 

@@ -7,6 +7,7 @@
 namespace alpenglow {
 inline namespace v1 {
 
+/// Those of tables that TableDesc::without leaves out stay null.
 /// Host memory with what recordTableReadback has written, as it lies in the buffer; the host keeps
 /// it unchanged during a call. Null: that copy has not arrived.
 struct TableReadbacks {

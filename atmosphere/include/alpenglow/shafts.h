@@ -32,6 +32,7 @@ struct ShaftsDesc {
   /// (0, 1]; 0: 0.7, the nearest to path-traced mountains (docs/shafts.md); below 0: none. Not
   /// Paper.
   double multipleLoss = 0.0;
+  EffectFlags without = 0;    ///< As ViewDesc::without of the view that draws them.
   uint32_t vertexStride = 0;  ///< Bytes from one vertex of a caster to the next; 0: 12.
   uint32_t vertexOffset = 0;  ///< Of its position, three floats.
   bool closed = false;  ///< Casters are closed surfaces, counter-clockwise seen from outside: the

@@ -3,6 +3,10 @@
 // of Solver::Standard define ALPENGLOW_SOLVER_STANDARD, and ALPENGLOW_MIE_PACKED as true for those with
 // MieStorage::Packed (a bool, may be a specialization constant; false unless defined before).
 //
+// For tables made without effects (TableDesc::without) define ALPENGLOW_WITHOUT_MULTIPLE or, without Mie,
+// ALPENGLOW_WITHOUT_SOURCE: the binding of a table that isn't there must not be declared. The macros of
+// physics/effects.glsl, defined as false or as specialization constants, take away what else is not wanted.
+//
 // Every answer is per unit solar irradiance, in the channels of the tables: multiply it with the
 // sun's irradiance. Distances are metres, directions unit vectors, `up` the observer's vertical.
 #ifndef ALPENGLOW_ATMOSPHERE

@@ -1,12 +1,18 @@
 // The tables of Solver::Moments: a part of alpenglow/atmosphere.glsl.
 
 layout(set = ALPENGLOW_SET, binding = 1) uniform sampler2D alpenglowDepthTable;
-layout(set = ALPENGLOW_SET, binding = 2) uniform sampler2D alpenglowMomentsTable;
-layout(set = ALPENGLOW_SET, binding = 3) uniform sampler3D alpenglowSourceTable;
-
 Spectrum readDepth(vec2 uv) { return textureLod(alpenglowDepthTable, uv, 0.0).rgb; }
+#ifdef ALPENGLOW_WITHOUT_MULTIPLE
+#define ALPENGLOW_MULTIPLE false
+#else
+#define ALPENGLOW_MULTIPLE true
+layout(set = ALPENGLOW_SET, binding = 2) uniform sampler2D alpenglowMomentsTable;
 Spectrum readMoments(vec2 uv) { return textureLod(alpenglowMomentsTable, uv, 0.0).rgb; }
+#ifndef ALPENGLOW_WITHOUT_SOURCE
+layout(set = ALPENGLOW_SET, binding = 3) uniform sampler3D alpenglowSourceTable;
 Spectrum readSource(vec3 uvw) { return textureLod(alpenglowSourceTable, uvw, 0.0).rgb; }
+#endif
+#endif
 
 #include "physics/field_lookup.glsl"
 #include "physics/path_light.glsl"
@@ -18,7 +24,7 @@ layout(set = ALPENGLOW_SET, binding = 0, std140) uniform AlpenglowAtmosphere {
 
 PathLight alpenglowPathLight(Ray ray, float inside) {
   return lightOfPath(alpenglowMedium, alpenglowShape, ray, inside, int(alpenglowShape.viewPanels),
-                     true, true);
+                     true, ALPENGLOW_MULTIPLE);
 }
 
 Spectrum alpenglowLightOfSegment(Ray ray, float inside, Spectrum transmittance) {
@@ -34,7 +40,9 @@ Spectrum alpenglowSunlight(float altitude, float muS) {
 }
 
 Spectrum alpenglowSkyIrradiance(float altitude, float muS) {
-  return fieldIrradiance(alpenglowMedium, alpenglowShape, altitude, muS);
+  Spectrum e = SPECTRUM(0.0);
+  if (ALPENGLOW_GROUND_IRRADIANCE) e = fieldIrradiance(alpenglowMedium, alpenglowShape, altitude, muS);
+  return e;
 }
 
 Spectrum alpenglowTransmittanceOfRay(Ray ray) {

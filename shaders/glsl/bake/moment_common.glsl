@@ -1,5 +1,6 @@
 // What the shaders of the moment solver share: bindings and reads. Some bindings have two names: no shader
 // reads both. All but the sources are 32-bit floats: radiance spans 30 powers of ten.
+#include "effects.glsl"
 #include "tile.glsl"
 
 #include "physics/physics.glsl"
@@ -11,7 +12,9 @@ layout(set = 0, binding = 0, std140) uniform Atmosphere {
 
 layout(set = 0, binding = 1) uniform sampler2D depthTable;
 layout(set = 0, binding = 2) uniform sampler2D fieldTable;  // of the order before
+#ifndef ALPENGLOW_WITHOUT_SOURCE
 layout(set = 0, binding = 3) uniform sampler3D sourceTable;
+#endif
 layout(set = 0, binding = 4) uniform sampler2D radianceTable;
 layout(set = 0, binding = 5) uniform sampler2D radianceMieTable;
 layout(set = 0, binding = 6) uniform sampler2D radianceGroundTable;
@@ -24,7 +27,9 @@ layout(set = 0, binding = 8) uniform sampler2D rotationTable;
 
 Spectrum readDepth(vec2 uv) { return textureLod(depthTable, uv, 0.0).rgb; }
 Spectrum readMoments(vec2 uv) { return textureLod(fieldTable, uv, 0.0).rgb; }
+#ifndef ALPENGLOW_WITHOUT_SOURCE
 Spectrum readSource(vec3 uvw) { return textureLod(sourceTable, uvw, 0.0).rgb; }
+#endif
 Spectrum fetchRadiance(int x, int y) { return texelFetch(radianceTable, ivec2(x, y), 0).rgb; }
 Spectrum fetchRadianceMie(int x, int y) { return texelFetch(radianceMieTable, ivec2(x, y), 0).rgb; }
 Spectrum fetchRadianceGround(int x, int y) {

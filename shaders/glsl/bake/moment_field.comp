@@ -20,5 +20,5 @@ void main() {
   ivec3 texel = tileTexel();
   if (texel.z < 0) return;
   NodeField node = fieldOfNode(medium, shape, nodeOf(texel.x, texel.y), kFirstOrder);
-  for (int layer = 0; layer < int(momentLayers()); ++layer) add(node, layer, texel.xy);
+  for (int layer = 0; layer < int(shape.layers); ++layer) add(node, layer, texel.xy);
 }

@@ -27,8 +27,11 @@ Spectrum sumOfLayer(ivec2 node, int layer, int ratio) {
 }
 
 NodeField sumOfNode(ivec2 node) {
+  Spectrum irradiance = SPECTRUM(0.0);
+  if (ALPENGLOW_GROUND_REFLECTION || ALPENGLOW_GROUND_IRRADIANCE)
+    irradiance = sumOfLayer(node, 4, 4);
   return NodeField(sumOfLayer(node, 0, 0), sumOfLayer(node, 1, 0), sumOfLayer(node, 2, 0),
-                   sumOfLayer(node, 3, 0), sumOfLayer(node, 4, 4));
+                   sumOfLayer(node, 3, 0), irradiance);
 }
 
 #endif
@@ -37,7 +40,7 @@ void main() {
   ivec3 texel = tileTexel();
   if (texel.z < 0) return;
   NodeField node = sumOfNode(texel.xy);
-  for (int layer = 0; layer < int(momentLayers()); ++layer) {
+  for (int layer = 0; layer < int(shape.layers); ++layer) {
     imageStore(moments, texel.xy + ivec2(0, layer * int(height)),
                vec4(encodeLayer(node, layer), 0.0));
   }

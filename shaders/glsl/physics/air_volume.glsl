@@ -30,7 +30,7 @@ ALPENGLOW_FN SliceGrid airGrid(IN(SliceView) view) {
   grid.groundRows = sliceFromSpace(view) ? REAL(57.0) : REAL(32.0);
   grid.rows = Real(kAirRows);
   grid.columns = sliceAzimuths(view, Real(kAirColumns));
-  grid.width = Real(kAirColumns);
+  grid.width = Real(kAirColumns) * (ALPENGLOW_SPACE_VIEWS ? REAL(1.0) : REAL(0.5));
   return grid;
 }
 

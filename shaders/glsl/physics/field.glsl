@@ -22,6 +22,7 @@ struct MomentShape {
   Real taper;              // of the highest ones, where a narrow peak would ring
   Real solverPanels, viewPanels;
   Real tail;               // 1: the orders that are not solved follow as a geometric series
+  Real layers;             // of the table of moments: five, or four where nothing wants E
 };
 
 // asin of x in [0, 1/2] and acos to float accuracy: GPUs and lavapipe have them off by up to 1e-4 rad.
@@ -69,9 +70,7 @@ ALPENGLOW_FN Real2 depthCoordinate(IN(Medium) m, IN(MomentShape) s, Real h, Real
 
 // --- Nodes.
 
-// The table of moments holds five layers below each other: ln N, the second moments xx, zz and xz over
-// N, and ln E.
-ALPENGLOW_FN Real momentLayers() { return REAL(5.0); }
+// The table of moments holds layers below each other: ln N, the second moments xx, zz and xz over N, and ln E.
 
 // Below this a mean radiance or irradiance is dark: its logarithm is cut here, far under a starlit night
 // (per unit solar irradiance).
@@ -108,10 +107,10 @@ ALPENGLOW_FN Real2 nodeUnit(IN(Medium) m, IN(MomentShape) s, Real h, Real muS) {
   return Real2(nodeUnitMuS(s, muS), nodeUnitR(m, s, h));
 }
 
-// Texture coordinate in the first layer of the table of moments; the next lie 1 / momentLayers() on.
+// Texture coordinate in the first layer of the table of moments; the next lie 1 / layers on.
 ALPENGLOW_FN Real2 fieldCoordinate(IN(MomentShape) s, Real2 unit) {
   return Real2(insetCoordinate(unit[0], s.fieldMuS),
-               insetCoordinate(unit[1], s.fieldR) / momentLayers());
+               insetCoordinate(unit[1], s.fieldR) / s.layers);
 }
 
 // --- Sources: directions by the angle gamma from the sun (from the point opposite it, for aerosols that

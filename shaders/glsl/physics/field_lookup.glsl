@@ -1,5 +1,6 @@
 // Reading the tables of the moment solver (field.glsl). The includer defines, before it includes this:
 //   Spectrum readDepth(Real2 uv), readMoments(Real2 uv), readSource(Real3 uvw)   hardware-filtered fetches
+// The last is not asked for with ALPENGLOW_WITHOUT_SOURCE, nor the last two with ALPENGLOW_WITHOUT_MULTIPLE.
 // Everything is per unit solar irradiance.
 
 // Optical depth from h to the top in a direction that rises.
@@ -24,35 +25,64 @@ ALPENGLOW_FN Spectrum sunlight(IN(Medium) m, IN(MomentShape) s, Real h, Real muS
   return exp(-depthTowardsTop(m, s, h, muS)) * sunVisibility(m, h, muS);
 }
 
-ALPENGLOW_FN Spectrum readLayer(Real2 node, Real layer) {
-  return readMoments(Real2(node[0], node[1] + layer / momentLayers()));
+#ifdef ALPENGLOW_WITHOUT_MULTIPLE
+
+ALPENGLOW_FN Spectrum fieldIrradiance(IN(Medium) m, IN(MomentShape) s, Real h, Real muS) {
+  return SPECTRUM(REAL(0.0));
+}
+
+ALPENGLOW_FN Spectrum fieldSource(IN(Medium) m, IN(MomentShape) s, IN(SourceRay) ray, Real h, Real mu,
+                                  Real muS) {
+  return SPECTRUM(REAL(0.0));
+}
+
+#else
+
+ALPENGLOW_FN Spectrum readLayer(IN(MomentShape) s, Real2 node, Real layer) {
+  return readMoments(Real2(node[0], node[1] + layer / s.layers));
 }
 
 // E of the sky, equation 15, on a horizontal surface.
 ALPENGLOW_FN Spectrum fieldIrradiance(IN(Medium) m, IN(MomentShape) s, Real h, Real muS) {
-  return exp(readLayer(fieldCoordinate(s, nodeUnit(m, s, h, muS)), REAL(4.0)));
+  return exp(readLayer(s, fieldCoordinate(s, nodeUnit(m, s, h, muS)), REAL(4.0)));
 }
 
-// J of equation 7 at a point of a ray. Rayleigh's phase function is a quadratic form, so its integral is one
-// of the second moments.
-ALPENGLOW_FN Spectrum fieldSource(IN(Medium) m, IN(MomentShape) s, IN(SourceRay) ray, Real h, Real mu,
-                                  Real muS) {
-  Real2 unit = nodeUnit(m, s, h, muS);
-  Real2 node = fieldCoordinate(s, unit);
-  Real3 v = localDirection(mu, muS, ray.nu);
-  Spectrum mean = exp(readLayer(node, REAL(0.0)));
-  Spectrum xx = readLayer(node, REAL(1.0));
-  Spectrum zz = readLayer(node, REAL(2.0));
-  Spectrum xz = readLayer(node, REAL(3.0));
+// Rayleigh's part of J over N: its phase function is a quadratic form, so its integral is one of the second
+// moments.
+ALPENGLOW_FN Spectrum rayleighSource(IN(MomentShape) s, Real2 node, Real3 v) {
+  Spectrum xx = readLayer(s, node, REAL(1.0));
+  Spectrum zz = readLayer(s, node, REAL(2.0));
+  Spectrum xz = readLayer(s, node, REAL(3.0));
   Spectrum one = SPECTRUM(REAL(1.0));
-  Spectrum rayleigh = one + xx * (v[0] * v[0]) + (one - xx - zz) * (v[1] * v[1]) +
-                      zz * (v[2] * v[2]) + xz * (REAL(2.0) * v[0] * v[2]);
+  return one + xx * (v[0] * v[0]) + (one - xx - zz) * (v[1] * v[1]) + zz * (v[2] * v[2]) +
+         xz * (REAL(2.0) * v[0] * v[2]);
+}
+
+#ifndef ALPENGLOW_WITHOUT_SOURCE
+// The aerosols' part of it, from the table of sources at node `unit`.
+ALPENGLOW_FN Spectrum mieSource(IN(MomentShape) s, IN(SourceRay) ray, Real2 unit, Real mu, Real muS) {
   Real slice = sourceSlice(s, ray, mu, muS);
   Real lower = min(floor(slice), s.sourcePsi - REAL(2.0));
   Real3 at = Real3(ray.x + lower / s.sourcePsi, insetCoordinate(unit[0], s.nodesMuS),
                    insetCoordinate(unit[1], s.nodesR));
   Real3 step = Real3(REAL(1.0) / s.sourcePsi, REAL(0.0), REAL(0.0));
-  Spectrum mie = mix(readSource(at), readSource(at + step), slice - lower);
-  return mean * (m.rayleighScattering * (rayleighDensity(m, h) * REAL(0.75)) * rayleigh +
-                 m.mieScattering * (mieDensity(m, h) * ray.shape) * mie);
+  return ray.shape * mix(readSource(at), readSource(at + step), slice - lower);
 }
+#endif
+
+// J of equation 7 at a point of a ray.
+ALPENGLOW_FN Spectrum fieldSource(IN(Medium) m, IN(MomentShape) s, IN(SourceRay) ray, Real h, Real mu,
+                                  Real muS) {
+  Real2 unit = nodeUnit(m, s, h, muS);
+  Real2 node = fieldCoordinate(s, unit);
+  Spectrum sum = SPECTRUM(REAL(0.0));
+  if (ALPENGLOW_RAYLEIGH)
+    sum = m.rayleighScattering * (rayleighDensity(m, h) * REAL(0.75)) *
+          rayleighSource(s, node, localDirection(mu, muS, ray.nu));
+#ifndef ALPENGLOW_WITHOUT_SOURCE
+  if (ALPENGLOW_MIE) sum += m.mieScattering * mieDensity(m, h) * mieSource(s, ray, unit, mu, muS);
+#endif
+  return exp(readLayer(s, node, REAL(0.0))) * sum;
+}
+
+#endif

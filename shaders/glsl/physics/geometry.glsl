@@ -104,7 +104,7 @@ ALPENGLOW_FN Ray makeRay(IN(Medium) m, Real h, Real mu, Real sine, Real muS, Rea
   Ray ray;
   Real r = radiusAt(m, h);
   Real rt = topRadius(m);
-  bool inside = h <= m.thickness;
+  bool inside = !ALPENGLOW_SPACE_VIEWS || h <= m.thickness;
   Real b = r * sine;
   Real half_ = sqrt(max((rt - b) * (rt + b), REAL(0.0)));  // half the chord through the shell
   ray.start = inside ? REAL(0.0) : max(-r * mu - half_, REAL(0.0));

@@ -54,14 +54,29 @@ ALPENGLOW_FN Spectrum reflectedRadiance(Spectrum albedo, Spectrum direct, Spectr
   return albedo / REAL(ALPENGLOW_PI) * (direct + sky);
 }
 
+// Extinction of molecules and of aerosols, 1/m.
+ALPENGLOW_FN Spectrum rayleighExtinction(IN(Medium) m, Real h) {
+  Spectrum beta = SPECTRUM(REAL(0.0));
+  if (ALPENGLOW_RAYLEIGH) beta = m.rayleighScattering * rayleighDensity(m, h);
+  return beta;
+}
+
+ALPENGLOW_FN Spectrum mieExtinction(IN(Medium) m, Real h) {
+  Spectrum beta = SPECTRUM(REAL(0.0));
+  if (ALPENGLOW_MIE) beta = m.mieExtinction * mieDensity(m, h);
+  return beta;
+}
+
 // Extinction of what thins out exponentially, and of the tent, 1/m. They are apart because they are
 // smooth in different stretches of a ray.
 ALPENGLOW_FN Spectrum exponentialExtinction(IN(Medium) m, Real h) {
-  return m.rayleighScattering * rayleighDensity(m, h) + m.mieExtinction * mieDensity(m, h);
+  return rayleighExtinction(m, h) + mieExtinction(m, h);
 }
 
 ALPENGLOW_FN Spectrum tentExtinction(IN(Medium) m, Real h) {
-  return m.absorptionExtinction * absorptionDensity(m, h);
+  Spectrum beta = SPECTRUM(REAL(0.0));
+  if (ALPENGLOW_ABSORPTION) beta = m.absorptionExtinction * absorptionDensity(m, h);
+  return beta;
 }
 
 // Extinction coefficient of everything at h, 1/m. The one place that knows the profiles: optical

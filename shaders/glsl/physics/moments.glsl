@@ -137,9 +137,12 @@ ALPENGLOW_FN void singleLight(IN(Medium) m, IN(MomentShape) s, int x, int node,
   rayleigh = light.rayleigh;
   mie = light.mie;
   Real muS = muSAtGround(m, ray);
-  Spectrum up = m.groundAlbedo / REAL(ALPENGLOW_PI) * exp(-light.depth) *
-                sunlight(m, s, REAL(0.0), muS) * max(muS, REAL(0.0));
-  ground = ray.hitsGround ? up : SPECTRUM(REAL(0.0));
+  ground = SPECTRUM(REAL(0.0));
+  if (ALPENGLOW_GROUND_REFLECTION) {
+    Spectrum up = m.groundAlbedo / REAL(ALPENGLOW_PI) * exp(-light.depth) *
+                  sunlight(m, s, REAL(0.0), muS) * max(muS, REAL(0.0));
+    ground = ray.hitsGround ? up : ground;
+  }
 }
 
 // Order n >= 2: S[L] of the order before from its source, and R[L] of its irradiance.
@@ -148,9 +151,13 @@ ALPENGLOW_FN Spectrum multipleLight(IN(Medium) m, IN(MomentShape) s, int x, int 
   // Its sources are smoother than sunlight: a panel less costs no accuracy that the others leave.
   int panels = int(s.solverPanels) - (s.solverPanels > REAL(3.5) ? 1 : 0);
   PathLight light = lightOfPath(m, s, ray, ray.extent, panels, false, true);
-  Spectrum up = m.groundAlbedo / REAL(ALPENGLOW_PI) * exp(-light.depth) *
-                fieldIrradiance(m, s, REAL(0.0), muSAtGround(m, ray));
-  return light.multiple + (ray.hitsGround ? up : SPECTRUM(REAL(0.0)));
+  Spectrum sum = light.multiple;
+  if (ALPENGLOW_GROUND_REFLECTION) {
+    Spectrum up = m.groundAlbedo / REAL(ALPENGLOW_PI) * exp(-light.depth) *
+                  fieldIrradiance(m, s, REAL(0.0), muSAtGround(m, ray));
+    sum += ray.hitsGround ? up : SPECTRUM(REAL(0.0));
+  }
+  return sum;
 }
 
 // --- Pass F: the integral of L cos(m phi) over a ring, eight modes at once, since their sums share the
@@ -194,22 +201,24 @@ ALPENGLOW_FN EightModes singleModes(IN(Medium) m, IN(MomentShape) s, int first, 
                                     Real cosines, Real sines, IN(EightModes) none) {
   EightModes sum = none;
   int azimuths = int(s.azimuths);
+  const Spectrum kNone = SPECTRUM(REAL(0.0));
   Spectrum rayleigh = fetchRadiance(first, node);
-  Spectrum mie = fetchRadianceMie(first, node);
-  Spectrum ground = fetchRadianceGround(first, node);
+  Spectrum mie = ALPENGLOW_MIE ? fetchRadianceMie(first, node) : kNone;
+  Spectrum ground = ALPENGLOW_GROUND_REFLECTION ? fetchRadianceGround(first, node) : kNone;
   for (int i = 0; i <= azimuths; ++i) {
     int next = first + min(i, azimuths - 1);
     Spectrum nextRayleigh = fetchRadiance(next, node);
-    Spectrum nextMie = fetchRadianceMie(next, node);
-    Spectrum nextGround = fetchRadianceGround(next, node);
+    Spectrum nextMie = ALPENGLOW_MIE ? fetchRadianceMie(next, node) : kNone;
+    Spectrum nextGround = ALPENGLOW_GROUND_REFLECTION ? fetchRadianceGround(next, node) : kNone;
     Real weight = ringStep(s) * (i == 0 || i == azimuths ? REAL(0.5) : REAL(1.0)) / Real(kFineAzimuths);
     for (int k = 0; k < kFineAzimuths; ++k) {
       Real share = (Real(k) + REAL(0.5)) / Real(kFineAzimuths);
       Real phi = (Real(i) + share - REAL(0.5)) * REAL(ALPENGLOW_PI) / s.azimuths;
       Real nu = clamp(cosines + sines * cos(phi), REAL(-1.0), REAL(1.0));
-      Spectrum light = mix(rayleigh, nextRayleigh, share) * rayleighPhase(nu) +
-                       mix(mie, nextMie, share) * miePhase(m.mieAsymmetry, nu) +
-                       mix(ground, nextGround, share);
+      Spectrum light = kNone;
+      if (ALPENGLOW_RAYLEIGH) light = mix(rayleigh, nextRayleigh, share) * rayleighPhase(nu);
+      if (ALPENGLOW_MIE) light += mix(mie, nextMie, share) * miePhase(m.mieAsymmetry, nu);
+      if (ALPENGLOW_GROUND_REFLECTION) light += mix(ground, nextGround, share);
       sum = addLight(sum, light * weight, mode, phi);
     }
     rayleigh = nextRayleigh;
@@ -392,7 +401,7 @@ ALPENGLOW_FN NodeField fieldOfNode(IN(Medium) m, IN(MomentShape) s, int node, bo
   int modes = int(s.degree) + 1;
   int sky = int(s.ringsSky) * fine;
   NodePoint p = nodePoint(m, s, node);
-  for (int i = 0; i < sky; ++i) {
+  for (int i = 0; i < (ALPENGLOW_GROUND_REFLECTION || ALPENGLOW_GROUND_IRRADIANCE ? sky : 0); ++i) {
     Ring ring = makeRing(m, s, p.h, i, fine, fetchRule(i, firstOrder ? 1 : 0));
     field.irradiance += fetchModes(modes * i, node) * (ring.weight * ring.mu);
   }

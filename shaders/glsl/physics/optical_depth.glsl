@@ -95,6 +95,8 @@ ALPENGLOW_FN Spectrum opticalDepthOfSide(IN(Medium) m, Real h, Real mu, Real low
                                          Real reach) {
   Real low = altitudeAt(m, h, mu, lowest);
   Real rise = abs(muAt(m, h, mu, lowest, low));
+  Spectrum tent = SPECTRUM(REAL(0.0));
+  if (ALPENGLOW_ABSORPTION) tent = tentDepthOfSide(m, h, mu, lowest, low, rise, direction, reach, 4);
   Real least = min(m.rayleighScaleHeight, m.mieScaleHeight);
   Real most = max(m.rayleighScaleHeight, m.mieScaleHeight);
   Real s1 = min(distanceToGain(m, low, rise, REAL(3.0) * least), reach) * direction;
@@ -103,8 +105,7 @@ ALPENGLOW_FN Spectrum opticalDepthOfSide(IN(Medium) m, Real h, Real mu, Real low
   return exponentialDepth(m, h, mu, lowest, lowest + s1, 12) +
          exponentialDepth(m, h, mu, lowest + s1, lowest + s2, 12) +
          exponentialDepth(m, h, mu, lowest + s2, lowest + s3, 12) +
-         exponentialDepth(m, h, mu, lowest + s3, lowest + reach * direction, 12) +
-         tentDepthOfSide(m, h, mu, lowest, low, rise, direction, reach, 4);
+         exponentialDepth(m, h, mu, lowest + s3, lowest + reach * direction, 12) + tent;
 }
 
 // Optical depth of the first d metres of a ray, both sides of its lowest point. Integrated, not taken as
@@ -119,8 +120,10 @@ ALPENGLOW_FN Spectrum opticalDepthOfSegment(IN(Medium) m, Real h, Real mu, Real 
 // enough for a shell of some 50 scale heights. Nothing, at no cost, unless `any`.
 ALPENGLOW_FN Spectrum opticalDepthToGround(IN(Medium) m, Real h, Real mu, Real d, bool any_) {
   Real rise = -muAt(m, h, mu, d, REAL(0.0));
-  return exponentialDepth(m, h, mu, REAL(0.0), d, any_ ? 12 : 0) +
-         tentDepthOfSide(m, h, mu, d, REAL(0.0), rise, REAL(-1.0), d, any_ ? 4 : 0);
+  Spectrum depth = exponentialDepth(m, h, mu, REAL(0.0), d, any_ ? 12 : 0);
+  if (ALPENGLOW_ABSORPTION)
+    depth += tentDepthOfSide(m, h, mu, d, REAL(0.0), rise, REAL(-1.0), d, any_ ? 4 : 0);
+  return depth;
 }
 
 // Tables hold the logarithm of its optical depth tau, as ln(1 + tau / unit): never negative,

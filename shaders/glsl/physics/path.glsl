@@ -24,8 +24,8 @@ ALPENGLOW_FN Real2 shadowEdges(IN(Medium) m, Real h, Real mu, Real muS, Real nu)
 
 // The height over which the air at h thins out by e.
 ALPENGLOW_FN Real localScaleHeight(IN(Medium) m, Real h) {
-  Spectrum rayleigh = m.rayleighScattering * rayleighDensity(m, h);
-  Spectrum mie = m.mieExtinction * mieDensity(m, h);
+  Spectrum rayleigh = rayleighExtinction(m, h);
+  Spectrum mie = mieExtinction(m, h);
   Real sumR = rayleigh[0] + rayleigh[1] + rayleigh[2];
   Real sumM = mie[0] + mie[1] + mie[2];
   return (sumR + sumM + REAL(1e-30)) /

@@ -19,8 +19,8 @@ ALPENGLOW_FN void addNode(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray, IN(Sourc
   Real muS = muSAt(m, ray.h, ray.muS, ray.nu, t, h);
   if (single) {
     Spectrum light = seen * sunlight(m, s, h, muS);
-    rayleigh = light * rayleighDensity(m, h);
-    mie = light * mieDensity(m, h);
+    if (ALPENGLOW_RAYLEIGH) rayleigh = light * rayleighDensity(m, h);
+    if (ALPENGLOW_MIE) mie = light * mieDensity(m, h);
   }
   if (multiple)
     scattered = seen * fieldSource(m, s, source, h, muAt(m, ray.h, ray.mu, t, h), muS);
@@ -66,6 +66,13 @@ ALPENGLOW_FN PathLight walkedLight(IN(Medium) m, IN(PathWalk) walk) {
 // Where the first Gauss point of a panel lies; the second is as far from its end.
 ALPENGLOW_FN Real firstOfPanel() { return REAL(0.21132486540518712); }
 
+// Optical depth of the tent along `d` metres between two altitudes.
+ALPENGLOW_FN Spectrum tentBetween(IN(Medium) m, Real h0, Real h1, Real d) {
+  Spectrum depth = SPECTRUM(REAL(0.0));
+  if (ALPENGLOW_ABSORPTION) depth = m.absorptionExtinction * (meanAbsorptionDensity(m, h0, h1) * d);
+  return depth;
+}
+
 // One panel more, to distance `next`. nodeA and nodeB are its Gauss points: distance and dt of the panel.
 ALPENGLOW_FN PathWalk walkPanel(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray, IN(SourceRay) source,
                                 IN(PathWalk) before, Real2 nodeA, Real2 nodeB, Real next, bool single,
@@ -79,31 +86,30 @@ ALPENGLOW_FN PathWalk walkPanel(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray, IN
   walk.h = min(altitudeAt(m, ray.h, ray.mu, next), m.thickness);
   Spectrum extinctionA = exponentialExtinction(m, hA) * nodeA[1];
   Spectrum extinctionB = exponentialExtinction(m, hB) * nodeB[1];
-  // Metres of the tent's full density up to either node and to the next panel.
-  Real tentA = meanAbsorptionDensity(m, before.h, hA) * (nodeA[0] - before.t);
-  Real tentB = tentA + meanAbsorptionDensity(m, hA, hB) * (nodeB[0] - nodeA[0]);
-  Real tent = tentB + meanAbsorptionDensity(m, hB, walk.h) * (next - nodeB[0]);
+  // Optical depth of the tent up to either node and to the next panel.
+  Spectrum tentA = tentBetween(m, before.h, hA, nodeA[0] - before.t);
+  Spectrum tentB = tentA + tentBetween(m, hA, hB, nodeB[0] - nodeA[0]);
+  Spectrum tent = tentB + tentBetween(m, hB, walk.h, next - nodeB[0]);
   Spectrum depthA = max(before.light.depth + kNear * extinctionA - kCross * extinctionB,
                         before.light.depth) +
-                    m.absorptionExtinction * tentA;
+                    tentA;
   Spectrum depthB = before.light.depth + (REAL(0.5) + kCross) * extinctionA + kNear * extinctionB +
-                    m.absorptionExtinction * tentB;
-  Spectrum depth = REAL(0.5) * (extinctionA + extinctionB) + m.absorptionExtinction * tent;
+                    tentB;
+  Spectrum depth = REAL(0.5) * (extinctionA + extinctionB) + tent;
   walk.light.depth = before.light.depth + depth;
   Spectrum seenA = exp(-depthA);
   Spectrum seenB = exp(-depthB);
   walk.seen = exp(-walk.light.depth);
-  Spectrum loss = seenA * extinctionA + seenB * extinctionB +
-                  (seenA + seenB) * m.absorptionExtinction * tent;
+  Spectrum loss = seenA * extinctionA + seenB * extinctionB + (seenA + seenB) * tent;
   Spectrum weight = REAL(0.5) * panelLimit(before.seen, walk.seen, depth, REAL(0.5) * loss);
   Spectrum rayleighA, mieA, multipleA, rayleighB, mieB, multipleB;
   addNode(m, s, ray, source, nodeA[0], hA, seenA * weight * nodeA[1], single, multiple, rayleighA, mieA,
           multipleA);
   addNode(m, s, ray, source, nodeB[0], hB, seenB * weight * nodeB[1], single, multiple, rayleighB, mieB,
           multipleB);
-  walk.light.rayleigh = before.light.rayleigh + rayleighA + rayleighB;
-  walk.light.mie = before.light.mie + mieA + mieB;
-  walk.light.multiple = before.light.multiple + multipleA + multipleB;
+  if (single && ALPENGLOW_RAYLEIGH) walk.light.rayleigh += rayleighA + rayleighB;
+  if (single && ALPENGLOW_MIE) walk.light.mie += mieA + mieB;
+  if (multiple) walk.light.multiple += multipleA + multipleB;
   return walk;
 }
 
@@ -153,6 +159,8 @@ ALPENGLOW_FN PathLight lightOfPath(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray,
 
 // All the light that a path scatters to its beginning.
 ALPENGLOW_FN Spectrum radianceOfPath(IN(Medium) m, IN(PathLight) light, Real nu) {
-  return light.rayleigh * rayleighPhase(nu) + light.mie * miePhase(m.mieAsymmetry, nu) +
-         light.multiple;
+  Spectrum single = SPECTRUM(REAL(0.0));
+  if (ALPENGLOW_RAYLEIGH) single = light.rayleigh * rayleighPhase(nu);
+  if (ALPENGLOW_MIE) single += light.mie * miePhase(m.mieAsymmetry, nu);
+  return single + light.multiple;
 }

@@ -7,6 +7,8 @@
 
 #include "types.glsl"
 
+#include "effects.glsl"
+
 #include "medium.glsl"
 
 #include "geometry.glsl"

@@ -15,7 +15,7 @@ ALPENGLOW_FN Real sliceSkyBend() { return REAL(0.8); }
 
 // The highest ray's angle from the nadir: pi inside the atmosphere, less than a right one outside.
 ALPENGLOW_FN bool sliceFromSpace(IN(SliceView) view) {
-  return view.horizon + view.span < REAL(2.0);
+  return ALPENGLOW_SPACE_VIEWS && view.horizon + view.span < REAL(2.0);
 }
 
 // Of `columns`, those in use. Seen from space the terminator crosses them, where light falls by orders of
@@ -61,7 +61,7 @@ ALPENGLOW_FN SliceGrid sliceGrid(IN(SliceView) view, Real columns, Real rows) {
   grid.groundRows = floor(rows * (sliceFromSpace(view) ? REAL(0.6) : REAL(0.3)));
   grid.rows = rows;
   grid.columns = sliceAzimuths(view, columns);
-  grid.width = columns;
+  grid.width = columns * (ALPENGLOW_SPACE_VIEWS ? REAL(1.0) : REAL(0.5));
   return grid;
 }
 
@@ -125,12 +125,16 @@ ALPENGLOW_FN Real sliceEvenPhase() { return REAL(0.25) / REAL(ALPENGLOW_PI); }
 
 ALPENGLOW_FN void encodeSlice(Spectrum smooth_, Spectrum mie, OUT(Spectrum) logarithm,
                               OUT(Spectrum) mieShare) {
-  Spectrum light = max(smooth_ + mie * sliceEvenPhase(), SPECTRUM(darkness()));
+  Spectrum light = smooth_;
+  if (ALPENGLOW_MIE) light += mie * sliceEvenPhase();
+  light = max(light, SPECTRUM(darkness()));
   logarithm = log(light);
-  mieShare = mie / light;
+  mieShare = ALPENGLOW_MIE ? mie / light : SPECTRUM(REAL(0.0));
 }
 
 ALPENGLOW_FN Spectrum decodeSlice(Spectrum logarithm, Spectrum mieShare, Real miePhase_) {
-  return exp(logarithm) *
-         max(SPECTRUM(REAL(1.0)) + mieShare * (miePhase_ - sliceEvenPhase()), SPECTRUM(REAL(0.0)));
+  Spectrum light = exp(logarithm);
+  if (ALPENGLOW_MIE)
+    light *= max(SPECTRUM(REAL(1.0)) + mieShare * (miePhase_ - sliceEvenPhase()), SPECTRUM(REAL(0.0)));
+  return light;
 }

@@ -4,6 +4,7 @@
 // before it is lit if the ray enters shadow here, and unlit else (docs/shafts.md).
 
 #define ALPENGLOW_AIR_SET 2
+#include "effects.glsl"
 #include "alpenglow/atmosphere.glsl"
 #include "alpenglow/shafts.glsl"
 #include "shafts/pixel_ray.glsl"

@@ -5,6 +5,7 @@
 
 #define ALPENGLOW_AIR_SET 2
 #define ALPENGLOW_SHAFT_SET 3
+#include "effects.glsl"
 #include "alpenglow/atmosphere.glsl"
 #include "sky/observer.glsl"
 #include "sky/ray_light.glsl"

@@ -5,6 +5,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+#include "effects.glsl"
+
 #include "alpenglow/atmosphere.glsl"
 
 layout(set = 1, binding = 0, ALPENGLOW_STORAGE) uniform writeonly image3D airFirst;
@@ -45,7 +47,7 @@ void main() {
     float d = next - walk.t;
     walk = walkPanel(alpenglowMedium, alpenglowShape, ray, source, walk,
                      vec2(walk.t + firstOfPanel() * d, d), vec2(next - firstOfPanel() * d, d), next,
-                     true, true);
+                     true, ALPENGLOW_MULTIPLE);
     if (next == target) {
       storeTexel(ivec3(column, texel), walk);
       ++texel;

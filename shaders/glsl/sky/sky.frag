@@ -11,6 +11,8 @@ layout(constant_id = 5) const bool kAir = true;
 layout(constant_id = 11) const float kSliceColumns = 128.0;
 layout(constant_id = 12) const float kSliceRows = 160.0;
 
+#include "effects.glsl"
+
 #ifdef ALPENGLOW_SKY_SLICE
 // Light that arrives at this frame's camera, or of the standard solver S at its altitude, for cameras
 // inside the atmosphere: sky_slice.comp, sky_slice_standard.comp.
@@ -121,8 +123,13 @@ Spectrum sliceTerm(Ray ray, vec3 view) {
   vec2 angles = sliceAngles(upAltitude.xyz, sunAzimuth.xyz, view);
   vec2 at = gridCoordinate(sliceGrid(slice, kSliceColumns, kSliceRows), slice, angles.x, angles.y,
                            ray.hitsGround);
-  Spectrum light = decodeSlice(readSlice(at).rgb, readSliceMie(at),
-                               miePhase(alpenglowMedium.mieAsymmetry, ray.nu));
+  Spectrum mieShare = SPECTRUM(0.0);
+  float phase = 0.0;
+  if (ALPENGLOW_MIE) {
+    mieShare = readSliceMie(at);
+    phase = miePhase(alpenglowMedium.mieAsymmetry, ray.nu);
+  }
+  Spectrum light = decodeSlice(readSlice(at).rgb, mieShare, phase);
   return ray.inAtmosphere ? light : SPECTRUM(0.0);
 #endif
 }

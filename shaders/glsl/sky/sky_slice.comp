@@ -4,6 +4,8 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
+#include "effects.glsl"
+
 #include "alpenglow/atmosphere.glsl"
 
 layout(set = 1, binding = 0, ALPENGLOW_STORAGE) uniform writeonly image2D slice;
@@ -25,7 +27,9 @@ void main() {
                     float(texel.y));
   PathLight light = alpenglowPathLight(ray, ray.extent);
   Spectrum logarithm, mieShare;
-  encodeSlice(light.rayleigh * rayleighPhase(ray.nu) + light.multiple, light.mie, logarithm, mieShare);
+  Spectrum smooth_ = light.multiple;
+  if (ALPENGLOW_RAYLEIGH) smooth_ += light.rayleigh * rayleighPhase(ray.nu);
+  encodeSlice(smooth_, light.mie, logarithm, mieShare);
   imageStore(slice, texel, vec4(logarithm, 0.0));
-  imageStore(sliceMie, texel, vec4(mieShare, 0.0));
+  if (ALPENGLOW_MIE) imageStore(sliceMie, texel, vec4(mieShare, 0.0));
 }

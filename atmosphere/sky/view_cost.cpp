@@ -1,0 +1,63 @@
+#include "atmosphere/sky/view_cost.h"
+
+#include <algorithm>
+
+#include "atmosphere/sky/air_volume.h"
+#include "atmosphere/sky/parts.h"
+#include "atmosphere/sky/sky_slice.h"
+
+namespace alpenglow::sky {
+namespace {
+
+constexpr uint64_t kTexelBytes = 16;
+
+PlanTable table(const char* name, const VkExtent3D& extent) {
+  const uint64_t texels = uint64_t{extent.width} * extent.height * extent.depth;
+  return {name, extent.width, extent.height, extent.depth, texels * kTexelBytes};
+}
+
+bool hasSlice(const ViewDesc& view) {
+  return view.skySlice != nullptr && view.projection != Projection::Orthographic;
+}
+
+bool hasVolume(const TableDesc& tables, const ViewDesc& view) {
+  return hasSlice(view) && view.sceneDepth.view != VK_NULL_HANDLE &&
+         tables.solver == Solver::Moments;
+}
+
+}  // namespace
+
+uint32_t viewTables(const TableDesc& tables, const ViewDesc& view, PlanTable out[kMaxViewTables]) {
+  uint32_t count = 0;
+  if (hasSlice(view)) {
+    constexpr const char* kNames[] = {"sky slice", "sky slice Mie"};
+    for (uint32_t i = 0; i < SkySlice::countFor(tables, view.without); ++i)
+      out[count++] = table(kNames[i], SkySlice::extentFor(tables, view.without));
+  }
+  if (hasVolume(tables, view)) {
+    for (uint32_t i = 0; i < AirVolume::kImages; ++i)
+      out[count++] = table("air volume", AirVolume::extentFor(view.without));
+  }
+  return count;
+}
+
+PlanCost viewCost(const TableDesc& tables, const ViewDesc& view) {
+  PlanCost cost;
+  PlanTable images[kMaxViewTables];
+  cost.images = viewTables(tables, view, images);
+  for (uint32_t i = 0; i < cost.images; ++i) {
+    cost.bytes += images[i].bytes;
+    cost.texels += images[i].bytes / kTexelBytes;
+  }
+  const bool slice = hasSlice(view), volume = hasVolume(tables, view);
+  const auto variants = static_cast<uint64_t>(std::ranges::count_if(
+      kCombinations, [&](const Visible& seen) { return drawn(view.without, seen); }));
+  const bool unsliced = !view.alwaysSliced;
+  cost.pipelines = variants * ((slice ? 1 : 0) + (unsliced ? 1 : 0)) + (slice ? 1 : 0);
+  if (view.sceneDepth.view != VK_NULL_HANDLE)
+    cost.pipelines += (volume ? 2 : 0) + (unsliced || !volume ? 1 : 0);
+  cost.dispatches = (slice ? 1 : 0) + (volume ? 1 : 0);
+  return cost;
+}
+
+}  // namespace alpenglow::sky
