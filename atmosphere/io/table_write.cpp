@@ -63,6 +63,10 @@ std::vector<OIIO::ImageSpec> specsOf(const TableFile& file) {
 
 Done checkParts(const TableFile& file) {
   if (Done done = checkSizes(file.desc); !done) return done;
+  if (file.desc.without != 0 || file.desc.sunZenithFrom != 0.0 || file.desc.sunZenithTo != 0.0) {
+    return {
+        "A table file holds whole tables alone, but this description leaves out effects or suns."};
+  }
   if (file.desc.solver == Solver::Moments && file.desc.quality == Quality::Default) {
     return {"A table file names its level of quality, but this description has none."};
   }

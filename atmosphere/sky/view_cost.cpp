@@ -16,46 +16,45 @@ PlanTable table(const char* name, const VkExtent3D& extent) {
   return {name, extent.width, extent.height, extent.depth, texels * kTexelBytes};
 }
 
-bool hasSlice(const ViewDesc& view) {
-  return view.skySlice != nullptr && view.projection != Projection::Orthographic;
+bool hasSlice(const ViewDesc& view, bool sliced) {
+  return sliced && view.projection != Projection::Orthographic;
 }
 
-bool hasVolume(const TableDesc& tables, const ViewDesc& view) {
-  return hasSlice(view) && view.sceneDepth.view != VK_NULL_HANDLE &&
-         tables.solver == Solver::Moments;
+bool hasVolume(const TableDesc& tables, const ViewDesc& view, bool sliced, bool air) {
+  return hasSlice(view, sliced) && air && tables.solver == Solver::Moments;
 }
 
 }  // namespace
 
-uint32_t viewTables(const TableDesc& tables, const ViewDesc& view, PlanTable out[kMaxViewTables]) {
+uint32_t viewTables(const TableDesc& tables, const ViewDesc& view, bool sliced, bool air,
+                    PlanTable out[kMaxViewTables]) {
   uint32_t count = 0;
-  if (hasSlice(view)) {
+  if (hasSlice(view, sliced)) {
     constexpr const char* kNames[] = {"sky slice", "sky slice Mie"};
     for (uint32_t i = 0; i < SkySlice::countFor(tables, view.without); ++i)
       out[count++] = table(kNames[i], SkySlice::extentFor(tables, view.without));
   }
-  if (hasVolume(tables, view)) {
+  if (hasVolume(tables, view, sliced, air)) {
     for (uint32_t i = 0; i < AirVolume::kImages; ++i)
       out[count++] = table("air volume", AirVolume::extentFor(view.without));
   }
   return count;
 }
 
-PlanCost viewCost(const TableDesc& tables, const ViewDesc& view) {
+PlanCost viewCost(const TableDesc& tables, const ViewDesc& view, bool sliced, bool air) {
   PlanCost cost;
   PlanTable images[kMaxViewTables];
-  cost.images = viewTables(tables, view, images);
+  cost.images = viewTables(tables, view, sliced, air, images);
   for (uint32_t i = 0; i < cost.images; ++i) {
     cost.bytes += images[i].bytes;
     cost.texels += images[i].bytes / kTexelBytes;
   }
-  const bool slice = hasSlice(view), volume = hasVolume(tables, view);
+  const bool slice = hasSlice(view, sliced), volume = hasVolume(tables, view, sliced, air);
   const auto variants = static_cast<uint64_t>(std::ranges::count_if(
       kCombinations, [&](const Visible& seen) { return drawn(view.without, seen); }));
   const bool unsliced = !view.alwaysSliced;
   cost.pipelines = variants * ((slice ? 1 : 0) + (unsliced ? 1 : 0)) + (slice ? 1 : 0);
-  if (view.sceneDepth.view != VK_NULL_HANDLE)
-    cost.pipelines += (volume ? 2 : 0) + (unsliced || !volume ? 1 : 0);
+  if (air) cost.pipelines += (volume ? 2 : 0) + (unsliced || !volume ? 1 : 0);
   cost.dispatches = (slice ? 1 : 0) + (volume ? 1 : 0);
   return cost;
 }

@@ -6,12 +6,14 @@
 namespace alpenglow::sky {
 
 /// Images and pipelines that createView makes, and what recordSkySlice dispatches for a frame, for
-/// a view of such tables; of a device that stores and filters 32-bit floats. `tables` is completed;
-/// of the view's handles only whether they are null counts. Shafts have costs of their own.
-PlanCost viewCost(const TableDesc& tables, const ViewDesc& view);
+/// a view of such tables; of a device that stores and filters 32-bit floats. `tables` is completed.
+/// The view's handles don't count: `sliced` says whether it has a sky slice, `air` a scene's depth.
+/// Shafts have costs of their own.
+PlanCost viewCost(const TableDesc& tables, const ViewDesc& view, bool sliced, bool air);
 
 /// The images, at most kMaxViewTables of them; returns how many.
 inline constexpr uint32_t kMaxViewTables = 5;
-uint32_t viewTables(const TableDesc& tables, const ViewDesc& view, PlanTable out[kMaxViewTables]);
+uint32_t viewTables(const TableDesc& tables, const ViewDesc& view, bool sliced, bool air,
+                    PlanTable out[kMaxViewTables]);
 
 }  // namespace alpenglow::sky

@@ -15,6 +15,7 @@ void main() {
   Spectrum ground;
   singleLight(medium, shape, texel.x, texel.y, rayleigh, mie, ground);
   imageStore(radiance, texel.xy, vec4(rayleigh, 0.0));
-  imageStore(radianceMie, texel.xy, vec4(mie, 0.0));
-  imageStore(radianceGround, texel.xy, vec4(ground, 0.0));
+  // Without them another image is bound there.
+  if (ALPENGLOW_MIE) imageStore(radianceMie, texel.xy, vec4(mie, 0.0));
+  if (ALPENGLOW_GROUND_REFLECTION) imageStore(radianceGround, texel.xy, vec4(ground, 0.0));
 }

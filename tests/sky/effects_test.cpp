@@ -1,0 +1,189 @@
+// What is left out costs nothing, and what it leaves is right: tables and views without effects.
+#include <cmath>
+
+#include "atmosphere/bake/table_set.h"
+#include "atmosphere/sky/view_cost.h"
+#include "tests/sky/sky_fixture.h"
+
+namespace alpenglow::testing {
+namespace {
+
+constexpr EffectFlags kMie = effectBit(Effect::Mie);
+constexpr EffectFlags kMultiple = effectBit(Effect::MultipleScattering);
+constexpr EffectFlags kReflection = effectBit(Effect::GroundReflection);
+constexpr EffectFlags kIrradiance = effectBit(Effect::GroundIrradiance);
+
+class EffectsTest : public SkyTest {
+ protected:
+  ResourceReport report() {
+    ResourceReport now;
+    resourceReport(context(), &now);
+    return now;
+  }
+
+  TableDesc desc(EffectFlags without) {
+    TableDesc desc;
+    desc.quality = Quality::Draft;
+    desc.without = without;
+    return desc;
+  }
+
+  Tables* bake(const Parameters& parameters, EffectFlags without) {
+    Tables* made = nullptr;
+    EXPECT_EQ(createTables(context(), parameters, desc(without), &made), Status::Ok) << message();
+    if (made != nullptr) bakeAll(device(), made);
+    return made;
+  }
+
+  static std::vector<ProbeQuery> queries() {
+    std::vector<ProbeQuery> result;
+    for (double sun : {20.0, 75.0, 92.0}) {
+      for (double view : {10.0, 80.0, 100.0}) {
+        ProbeQuery query;
+        query.altitude_m = 1500.0;
+        query.viewZenith = radians(view);
+        query.sunZenith = radians(sun);
+        query.azimuth = radians(35.0);
+        query.distance_m = -1.0;
+        result.push_back(query);
+      }
+    }
+    return result;
+  }
+
+  /// The greatest relative difference of the light that both see.
+  double difference(Tables* a, Tables* b) {
+    const std::vector<ProbeAnswer> first = probeAll(queries(), a), second = probeAll(queries(), b);
+    EXPECT_EQ(first.size(), queries().size());
+    EXPECT_EQ(second.size(), queries().size());
+    double most = 0.0;
+    for (size_t i = 0; i < first.size() && i < second.size(); ++i) {
+      for (uint32_t c = 0; c < kSpectrumSize; ++c) {
+        const double x = first[i].skyRadiance[c], y = second[i].skyRadiance[c];
+        EXPECT_GT(x, 0.0);
+        most = std::max(most, std::abs(x - y) / std::max(x, 1e-30));
+      }
+    }
+    return most;
+  }
+
+  void compare(const Parameters& parameters, EffectFlags without, double error) {
+    Tables* whole = bake(parameters, 0);
+    Tables* part = bake(parameters, without);
+    ASSERT_TRUE(whole != nullptr && part != nullptr);
+    EXPECT_LE(difference(whole, part), error) << without;
+    destroyTables(whole, FrameInfo{});
+    destroyTables(part, FrameInfo{});
+  }
+};
+
+TEST_F(EffectsTest, WhatTheAirDoesNotHaveIsNotMissed) {
+  Parameters bare = preset("earth");
+  bare.absorption.present = false;
+  compare(bare, effectBit(Effect::Absorption), 1e-6);
+  Parameters black = preset("earth");
+  black.groundAlbedo = Spectrum{};
+  compare(black, kReflection, 1e-5);
+  compare(preset("earth"), kIrradiance, 0.0);
+  Parameters clear = preset("earth");
+  clear.mie.present = false;
+  compare(clear, kMie, 3e-3);
+  Parameters dusty = preset("earth");
+  dusty.rayleigh.present = false;
+  compare(dusty, effectBit(Effect::Rayleigh), 1e-6);
+}
+
+TEST_F(EffectsTest, ImagesThatStayAreThoseOfWhatIsOn) {
+  const struct {
+    EffectFlags without;
+    uint64_t images;
+  } cases[] = {{0, 3}, {kMie, 2}, {kMultiple, 1}, {kMie | kMultiple, 1}, {kReflection, 3}};
+  for (const auto& each : cases) {
+    const ResourceReport before = report();
+    Tables* made = bake(preset("earth"), each.without);
+    ASSERT_NE(made, nullptr);
+    collect(context(), ~uint64_t{0} >> 1);
+    EXPECT_EQ(report().images - before.images, each.images) << each.without;
+    TableInfo info;
+    const bool multiple = (each.without & kMultiple) == 0;
+    EXPECT_EQ(tableInfo(made, TableId::Moments, &info) == Status::Ok, multiple);
+    const bool source = multiple && (each.without & kMie) == 0;
+    EXPECT_EQ(tableInfo(made, TableId::Source, &info) == Status::Ok, source);
+    EXPECT_FALSE(probeAll(queries(), made).empty());
+    destroyTables(made, FrameInfo{});
+    collect(context(), ~uint64_t{0} >> 1);
+    EXPECT_EQ(report().images, before.images);
+  }
+}
+
+TEST_F(EffectsTest, AViewTakesWhatItsCostSays) {
+  Tables* const whole = tables();
+  Tables* const clear = bake(preset("earth"), kMie);
+  ASSERT_NE(clear, nullptr);
+  constexpr EffectFlags kGround = effectBit(Effect::Ground), kDisc = effectBit(Effect::SunDisc),
+                        kSpace = effectBit(Effect::SpaceViews);
+  for (const EffectFlags without :
+       {EffectFlags{0}, kGround, kDisc, kSpace, kViewEffects, kMie, kMie | kViewEffects}) {
+    for (const bool always : {false, true}) {
+      ViewDesc view = viewDesc();
+      view.without = without;
+      view.skySlice = (without & kMie) != 0 ? clear : whole;
+      view.alwaysSliced = always;
+      const PlanCost cost = sky::viewCost(view.skySlice->desc(), view, true, false);
+      const ResourceReport before = report();
+      View* made = nullptr;
+      ASSERT_EQ(createView(context(), view, &made), Status::Ok) << message();
+      const ResourceReport after = report();
+      EXPECT_EQ(after.pipelines - before.pipelines, cost.pipelines) << without << always;
+      EXPECT_EQ(after.images - before.images, cost.images) << without << always;
+      EXPECT_EQ(after.bytes - before.bytes, cost.bytes) << without << always;
+      destroyView(made, FrameInfo{});
+      collect(context(), ~uint64_t{0} >> 1);
+    }
+  }
+  destroyTables(clear, FrameInfo{});
+}
+
+TEST_F(EffectsTest, APictureOfTheSkyIsTheSameWithoutTheRest) {
+  const Camera camera =
+      cameraFromGeodetic(preset("earth"), 0.8, 0.2, 500.0, 1.0, radians(50.0), 0.0, radians(40.0));
+  Vec sun;
+  sunDirection(0.8, 0.2, radians(20.0), radians(190.0), sun.data());
+  const SkyDraw draw = makeDraw(camera, sun, {48, 32});
+  for (const bool sliced : {false, true}) {
+    ViewDesc desc = viewDesc();
+    if (sliced) desc.skySlice = tables();
+    View* const whole = makeView(desc);
+    desc.without = kViewEffects;
+    desc.alwaysSliced = sliced;
+    View* const part = makeView(desc);
+    if (sliced) recordSlice(whole, tables(), draw);
+    const Picture a = picture(whole, tables(), draw);
+    if (sliced) recordSlice(part, tables(), draw);
+    EXPECT_EQ(a.data, picture(part, tables(), draw).data);
+  }
+}
+
+TEST_F(EffectsTest, OthersAreRefused) {
+  Tables* made = nullptr;
+  TableDesc wrong = desc(kMultiple);
+  wrong.orders = 3;
+  EXPECT_EQ(createTables(context(), preset("earth"), wrong, &made), Status::InvalidArgument);
+  EXPECT_TRUE(hasAll(message(), "orders|3")) << message();
+  EXPECT_EQ(createTables(context(), preset("earth"), desc(effectBit(Effect::Ground)), &made),
+            Status::InvalidArgument);
+  wrong = smallTables();
+  wrong.without = kMie;
+  EXPECT_EQ(createTables(context(), preset("earth"), wrong, &made), Status::InvalidArgument);
+  ViewDesc view = viewDesc();
+  View* none = nullptr;
+  view.alwaysSliced = true;
+  EXPECT_EQ(createView(context(), view, &none), Status::InvalidArgument);
+  view.skySlice = tables();
+  view.without = kMie;
+  EXPECT_EQ(createView(context(), view, &none), Status::InvalidArgument);
+  EXPECT_TRUE(hasAll(message(), "0x2|must agree")) << message();
+}
+
+}  // namespace
+}  // namespace alpenglow::testing
