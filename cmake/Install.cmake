@@ -16,7 +16,7 @@ install(EXPORT AlpenglowTargets NAMESPACE Alpenglow:: DESTINATION "${package}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/atmosphere/include/alpenglow"
                   "${PROJECT_SOURCE_DIR}/engine/headless/include/alpenglow"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h"
-        PATTERN "io" EXCLUDE)
+        PATTERN "io" EXCLUDE PATTERN "cost.h" EXCLUDE)  # the room cost serves the program alone
 install(DIRECTORY "${ALPENGLOW_GLSL_SOURCE_DIR}/alpenglow" "${ALPENGLOW_GLSL_SOURCE_DIR}/physics"
         DESTINATION "${share}/glsl" FILES_MATCHING PATTERN "*.glsl")
 
@@ -34,6 +34,8 @@ if(ALPENGLOW_BUILD_SAMPLES)
   install(TARGETS alpenglow RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/samples/scenes" "${PROJECT_SOURCE_DIR}/samples/data"
           DESTINATION "${share}")
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/tests/data/truth" DESTINATION "${share}"
+          FILES_MATCHING PATTERN "earth.*" PATTERN "evening.*")
 endif()
 
 set(ALPENGLOW_SHARE_DIR "${share}")

@@ -5,9 +5,13 @@ option(ALPENGLOW_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(ALPENGLOW_BUILD_SAMPLES "Build the program alpenglow (needs io)" ${PROJECT_IS_TOP_LEVEL})
 option(ALPENGLOW_BUILD_IO "Build Alpenglow::io (needs OpenImageIO and nlohmann-json)"
        ${PROJECT_IS_TOP_LEVEL})
+option(ALPENGLOW_BUILD_COST "Build Alpenglow::cost (needs io and cairo)" ${ALPENGLOW_BUILD_IO})
 option(ALPENGLOW_INSTALL "Add install rules" ${PROJECT_IS_TOP_LEVEL})
 option(ALPENGLOW_WARNINGS_AS_ERRORS "Stop at the first warning" ${PROJECT_IS_TOP_LEVEL})
 
+if(ALPENGLOW_BUILD_COST AND NOT ALPENGLOW_BUILD_IO)
+  message(FATAL_ERROR "ALPENGLOW_BUILD_COST needs ALPENGLOW_BUILD_IO, which is off.")
+endif()
 if(ALPENGLOW_BUILD_SAMPLES AND NOT ALPENGLOW_BUILD_IO)
   message(FATAL_ERROR "ALPENGLOW_BUILD_SAMPLES needs ALPENGLOW_BUILD_IO, which is off.")
 endif()

@@ -8,7 +8,7 @@ packages=(
   cmake g++ ninja-build glslang-tools spirv-tools clang-format
   # what the libraries and the program use
   libvulkan-dev libglm-dev libopenimageio-dev openimageio-tools libopenexr-dev
-  nlohmann-json3-dev libcli11-dev
+  nlohmann-json3-dev libcli11-dev pkg-config libcairo2-dev
   # what the tests use: software Vulkan, its validation layers, a second loader
   libgtest-dev mesa-vulkan-drivers vulkan-validationlayers libvulkan-volk-dev
 )

@@ -62,6 +62,12 @@ struct ProbeArguments {
   RunArguments run;
 };
 
+struct CostArguments {
+  std::string folder;
+  std::string device;
+  bool quick = false;
+};
+
 /// `keepOrdersHelp` says what becomes of the orders that --keep-orders keeps.
 void addTableOptions(CLI::App* command, const std::string& keepOrdersHelp,
                      TableArguments* arguments);

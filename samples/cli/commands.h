@@ -10,5 +10,7 @@ void runPresets(const std::string& name);
 void runBake(const BakeArguments& arguments);
 void runRender(const RenderArguments& arguments);
 void runProbe(const ProbeArguments& arguments);
+/// Where the program was built with Alpenglow::cost.
+void runCost(const CostArguments& arguments);
 
 }  // namespace alpenglow::cli

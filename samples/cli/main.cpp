@@ -19,6 +19,7 @@ struct Arguments {
   BakeArguments bake;
   RenderArguments render;
   ProbeArguments probe;
+  CostArguments cost;
 };
 
 constexpr const char* kAtmosphereHelp = "A preset's name, an atmosphere file or a scene file";
@@ -69,6 +70,21 @@ void addProbe(CLI::App* app, Arguments* arguments) {
   command->callback([probe] { runProbe(*probe); });
 }
 
+#ifdef ALPENGLOW_WITH_COST
+void addCost(CLI::App* app, Arguments* arguments) {
+  CostArguments* cost = &arguments->cost;
+  CLI::App* command = app->add_subcommand(
+      "cost", "Measure what accuracy costs in time, on this device, as a page with charts");
+  command->add_option("-o,--output", cost->folder, "The folder to write to, which is made")
+      ->required()
+      ->type_name("DIR");
+  command->add_flag("--quick", cost->quick, "Fewer settings and fewer runs");
+  command->add_option("--device", cost->device, "A Vulkan device, by index or part of its name")
+      ->type_name("INDEX|NAME");
+  command->callback([cost] { runCost(*cost); });
+}
+#endif
+
 // CLI11's message as one sentence.
 std::string usageSentence(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -106,6 +122,9 @@ int parseAndRun(int argc, char** argv) {
   addBake(&app, &arguments);
   addRender(&app, &arguments);
   addProbe(&app, &arguments);
+#ifdef ALPENGLOW_WITH_COST
+  addCost(&app, &arguments);
+#endif
   checkCommand(app, argc, argv);
   try {
     app.parse(argc, argv);

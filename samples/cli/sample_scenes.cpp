@@ -39,4 +39,11 @@ std::string findScene(const std::string& nameOrPath) {
   return nameOrPath;
 }
 
+std::string findData(const std::string& name, const std::string& otherwise) {
+  std::error_code code;
+  for (const fs::path& folder : dataFolders())
+    if (fs::is_directory(folder / name, code)) return (folder / name).lexically_normal().string();
+  return otherwise;
+}
+
 }  // namespace alpenglow::cli

@@ -10,4 +10,7 @@ namespace alpenglow::cli {
 /// installed program and in the source tree.
 std::string findScene(const std::string& nameOrPath);
 
+/// A folder of data by its name, beside the sample scenes, or `otherwise`.
+std::string findData(const std::string& name, const std::string& otherwise);
+
 }  // namespace alpenglow::cli

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "tests/bake/bake_fixture.h"
-#include "tests/reference/truth.h"
+#include "tests/reference/kept_truth.h"
 
 namespace alpenglow::testing {
 

@@ -1,6 +1,6 @@
 // The kept truth: that it is whole, that it covers what it is for, that its errors are those it
 // claims, and that the reference of today still gives it.
-#include "truth.h"
+#include "tests/reference/kept_truth.h"
 
 #include <gtest/gtest.h>
 

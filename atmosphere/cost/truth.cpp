@@ -1,4 +1,4 @@
-#include "truth.h"
+#include "atmosphere/cost/truth.h"
 
 #include <alpenglow/io/atmosphere_file.h>
 #include <alpenglow/io/probe_file.h>
@@ -14,8 +14,8 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr const char* kAtmosphereSuffix = ".atmosphere.json";
 
-std::string fileOf(const std::string& name, const char* suffix) {
-  return std::string(ALPENGLOW_TRUTH_FOLDER) + "/" + name + suffix;
+std::string fileOf(const std::string& folder, const std::string& name, const char* suffix) {
+  return folder + "/" + name + suffix;
 }
 
 /// The set's irradiance query on the ground under a sun; null if it has none.
@@ -74,12 +74,12 @@ Band bandOf(double sunElevation) {
   return static_cast<Band>(band);
 }
 
-std::vector<std::string> truthNames() {
+std::vector<std::string> truthNames(const std::string& folder) {
   const std::vector<std::string> first = {"earth", "earth-fig6", "earth-clear", "earth-hazy",
                                           "mars"};
   std::vector<std::string> names;
   std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(ALPENGLOW_TRUTH_FOLDER, ignored)) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
     const std::string file = entry.path().filename().string();
     const size_t at = file.find(".answers.json");
     if (at != std::string::npos) names.push_back(file.substr(0, at));
@@ -93,13 +93,13 @@ std::vector<std::string> truthNames() {
   return names;
 }
 
-io::Result<TruthSet> loadTruth(const std::string& name) {
+io::Result<TruthSet> loadTruth(const std::string& folder, const std::string& name) {
   using Set = io::Result<TruthSet>;
-  const auto parameters = io::readAtmosphere(fileOf(name, kAtmosphereSuffix));
+  const auto parameters = io::readAtmosphere(fileOf(folder, name, kAtmosphereSuffix));
   if (!parameters) return Set::failure(parameters.error);
-  const auto queries = io::readQueries(fileOf(name, ".queries.json"));
+  const auto queries = io::readQueries(fileOf(folder, name, ".queries.json"));
   if (!queries) return Set::failure(queries.error);
-  const auto answers = io::readAnswers(fileOf(name, ".answers.json"), *queries);
+  const auto answers = io::readAnswers(fileOf(folder, name, ".answers.json"), *queries);
   if (!answers) return Set::failure(answers.error);
 
   TruthSet set{name, *parameters, {}};

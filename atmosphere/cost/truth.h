@@ -1,5 +1,5 @@
-// The kept truth of tests/data/truth: atmospheres, queries and answers of the path tracer, and the
-// error of an answer against them, as docs/reference.md defines it.
+// Kept truth: atmospheres, queries and answers of the path tracer in a folder, and the error of an
+// answer against them, as docs/reference.md defines it.
 #pragma once
 
 #include <alpenglow/io/result.h>
@@ -39,10 +39,9 @@ struct TruthSet {
   std::vector<TruthQuery> queries;  ///< As the file has them; rays and irradiances mixed.
 };
 
-/// Names of the sets kept in tests/data/truth: the presets first, then the hard ones. The list is
-/// the folder's content; loading never fails for these names in a healthy checkout.
-std::vector<std::string> truthNames();
-io::Result<TruthSet> loadTruth(const std::string& name);
+/// Names of the sets kept in a folder: the presets first, then the hard ones.
+std::vector<std::string> truthNames(const std::string& folder);
+io::Result<TruthSet> loadTruth(const std::string& folder, const std::string& name);
 
 /// Errors of an answer in the project's measure, as fractions (0.01 is 1 %); the worst channel.
 /// Fields that the query's kind lacks are 0.

@@ -1,0 +1,321 @@
+#include "atmosphere/cost/bench.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/packing.hpp>
+#include <numbers>
+
+namespace alpenglow::cost {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+/// Rays of one submission lie side by side in the target's first row.
+constexpr uint64_t kSliceBudget = 50'000'000;
+
+void keep(void* user, const Diagnostic& diagnostic) {
+  *static_cast<std::string*>(user) = diagnostic.message;
+}
+
+}  // namespace
+
+Bench::Bench(const std::string& device, VkExtent2D frame) {
+  headless::DeviceOptions options;
+  options.select = device;
+  const CapabilityFlags wanted = kCapabilityBake | kCapabilitySky;
+  options.requirements = [wanted](PFN_vkGetInstanceProcAddr getProcAddr, VkInstance instance,
+                                  VkPhysicalDevice physical, Requirements* out,
+                                  std::string* missing) {
+    return queryRequirements(getProcAddr, instance, physical, wanted, out, keep, missing);
+  };
+  device_ = headless::Device::create(options, &error_);
+  if (!device_) throw Failure(error_);
+  ContextDesc desc = device_->contextDesc();
+  desc.capabilities = wanted;
+  desc.diagnostic = keep;
+  desc.user = &error_;
+  if (createContext(desc, &context_) != Status::Ok) throw Failure(error_);
+  target_ = device_->createImage(
+      frame, kFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 1,
+      &error_);
+  if (target_.image() == VK_NULL_HANDLE) throw Failure(error_);
+  readback_ = device_->createHostBuffer(VkDeviceSize{16} * frame.width * frame.height,
+                                        VK_BUFFER_USAGE_TRANSFER_DST_BIT, &error_);
+  if (readback_.data() == nullptr) throw Failure(error_);
+  describeDriver();
+}
+
+Bench::~Bench() { destroyContext(context_); }
+
+void Bench::describeDriver() {
+  VkPhysicalDeviceDriverProperties driver = {};
+  driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+  VkPhysicalDeviceProperties2 properties = {};
+  properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  properties.pNext = &driver;
+  reinterpret_cast<PFN_vkGetPhysicalDeviceProperties2>(
+      device_->getInstanceProcAddr()(device_->instance(), "vkGetPhysicalDeviceProperties2"))(
+      device_->physicalDevice(), &properties);
+  software_ = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  driver_ = std::string(driver.driverName) + " " + driver.driverInfo;
+  const uint32_t version = properties.properties.apiVersion;
+  vulkan_ = std::to_string(VK_API_VERSION_MAJOR(version)) + "." +
+            std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+            std::to_string(VK_API_VERSION_PATCH(version));
+}
+
+double Bench::run(const std::function<Status(VkCommandBuffer)>& record) {
+  headless::Timing timing;
+  std::string failed;
+  error_.clear();
+  const bool good = device_->run(
+      [&](VkCommandBuffer commands) { return record(commands) == Status::Ok; }, &failed, &timing);
+  if (!good) throw Failure(error_.empty() ? failed : error_);
+  collect(context_, device_->frame().completed);
+  return software_ || timing.gpuSeconds < 0.0 ? timing.cpuSeconds : timing.gpuSeconds;
+}
+
+TablesPointer Bench::bake(const Parameters& parameters, const TableDesc& desc, double* seconds) {
+  Tables* made = nullptr;
+  error_.clear();
+  if (createTables(context_, parameters, desc, &made) != Status::Ok) return {};
+  TablesPointer tables(made, TablesDeleter{device_.get()});
+  *seconds = 0.0;
+  BakeProgress progress;
+  while (!progress.done) {
+    *seconds += run([&](VkCommandBuffer commands) {
+      return recordBake(made, commands, device_->frame(), kSliceBudget, &progress);
+    });
+  }
+  return tables;
+}
+
+ResourceReport Bench::resources() {
+  collect(context_, device_->frame().completed);
+  ResourceReport report;
+  resourceReport(context_, &report);
+  return report;
+}
+
+ViewPointer Bench::view(const Drawn& drawn) {
+  ViewDesc desc;
+  desc.colorFormat = kFormat;
+  desc.solver = drawn.desc.solver;
+  desc.mie = drawn.desc.mie;
+  desc.without = (drawn.desc.without & kTableEffects) | drawn.viewWithout;
+  if (drawn.sliced) desc.skySlice = drawn.tables;
+  View* made = nullptr;
+  if (createView(context_, desc, &made) != Status::Ok) throw Failure(error_);
+  return ViewPointer(made, ViewDeleter{device_.get()});
+}
+
+void Bench::barrier(VkCommandBuffer commands, bool toCopy) {
+  VkImageMemoryBarrier2 barrier = {};
+  barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
+  barrier.srcStageMask =
+      VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_2_COPY_BIT;
+  barrier.srcAccessMask = toCopy ? VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT : VkAccessFlags2{0};
+  barrier.dstStageMask =
+      toCopy ? VK_PIPELINE_STAGE_2_COPY_BIT : VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+  barrier.dstAccessMask =
+      toCopy ? VK_ACCESS_2_TRANSFER_READ_BIT
+             : VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT;
+  barrier.oldLayout = toCopy ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_UNDEFINED;
+  barrier.newLayout =
+      toCopy ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+  barrier.image = target_.image();
+  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+  VkDependencyInfo dependency = {};
+  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+  dependency.imageMemoryBarrierCount = 1;
+  dependency.pImageMemoryBarriers = &barrier;
+  function<PFN_vkCmdPipelineBarrier2>("vkCmdPipelineBarrier2")(commands, &dependency);
+}
+
+void Bench::begin(VkCommandBuffer commands, const VkRect2D& area, VkAttachmentLoadOp load) {
+  VkRenderingAttachmentInfo color = {};
+  color.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
+  color.imageView = target_.view();
+  color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+  color.loadOp = load;
+  color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+  VkRenderingInfo info = {};
+  info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
+  info.renderArea = area;
+  info.layerCount = 1;
+  info.colorAttachmentCount = 1;
+  info.pColorAttachments = &color;
+  function<PFN_vkCmdBeginRendering>("vkCmdBeginRendering")(commands, &info);
+}
+
+double Bench::frame(View* view, const Drawn& drawn, const SkyDraw& draw) {
+  return run([&](VkCommandBuffer commands) {
+    const FrameInfo frame = device_->frame();
+    Status status = Status::Ok;
+    if (drawn.sliced) status = recordSkySlice(view, commands, frame, drawn.tables, draw);
+    if (status != Status::Ok) return status;
+    barrier(commands, false);
+    begin(commands, draw.viewport, VK_ATTACHMENT_LOAD_OP_DONT_CARE);
+    status = recordSky(view, commands, frame, drawn.tables, draw);
+    function<PFN_vkCmdEndRendering>("vkCmdEndRendering")(commands);
+    return status;
+  });
+}
+
+io::LinearImage Bench::read(VkExtent2D size) {
+  run([&](VkCommandBuffer commands) {
+    // What was drawn stays where it is: the target is in the layout that drawing left.
+    barrier(commands, true);
+    VkBufferImageCopy copy = {};
+    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    copy.imageExtent = {size.width, size.height, 1};
+    function<PFN_vkCmdCopyImageToBuffer>("vkCmdCopyImageToBuffer")(
+        commands, target_.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, readback_.buffer(), 1,
+        &copy);
+    VkMemoryBarrier2 memory = {};
+    memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
+    memory.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
+    memory.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    memory.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
+    memory.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
+    VkDependencyInfo dependency = {};
+    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &memory;
+    function<PFN_vkCmdPipelineBarrier2>("vkCmdPipelineBarrier2")(commands, &dependency);
+    return Status::Ok;
+  });
+  io::LinearImage image{size.width, size.height, {}};
+  const auto* rgba = static_cast<const float*>(readback_.data());
+  for (size_t i = 0; i < size_t{size.width} * size.height; ++i)
+    image.pixels.insert(image.pixels.end(), {rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]});
+  return image;
+}
+
+Status Bench::recordRays(VkCommandBuffer commands, View* view, const Drawn& drawn,
+                         const std::vector<SkyDraw>& draws) {
+  const FrameInfo frame = device_->frame();
+  barrier(commands, false);
+  const SkyDraw* sliced = nullptr;
+  for (size_t i = 0; i < draws.size(); ++i) {
+    const SkyDraw& draw = draws[i];
+    // Neighbours share observer and sun; a slice serves all rays of both.
+    const bool same =
+        sliced != nullptr &&
+        std::equal(draw.camera.position_m, draw.camera.position_m + 3, sliced->camera.position_m) &&
+        std::equal(draw.sun.direction, draw.sun.direction + 3, sliced->sun.direction);
+    Status status = Status::Ok;
+    if (drawn.sliced && !same) {
+      status = recordSkySlice(view, commands, frame, drawn.tables, draw);
+      sliced = &draw;
+    }
+    if (status != Status::Ok) return status;
+    begin(commands, draw.viewport,
+          i == 0 ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD);
+    status = recordSky(view, commands, frame, drawn.tables, draw);
+    function<PFN_vkCmdEndRendering>("vkCmdEndRendering")(commands);
+    if (status != Status::Ok) return status;
+  }
+  return Status::Ok;
+}
+
+std::vector<Spectrum> Bench::radiance(View* view, const Drawn& drawn, const Parameters& parameters,
+                                      const std::vector<ProbeQuery>& rays) {
+  std::vector<Spectrum> result;
+  const uint32_t width = target_.extent().width;
+  for (size_t first = 0; first < rays.size(); first += width) {
+    const size_t count = std::min<size_t>(rays.size() - first, width);
+    std::vector<SkyDraw> draws;
+    for (size_t i = 0; i < count; ++i)
+      draws.push_back(drawOfRay(parameters, rays[first + i], static_cast<int32_t>(i)));
+    run([&](VkCommandBuffer commands) { return recordRays(commands, view, drawn, draws); });
+    const io::LinearImage row = read({static_cast<uint32_t>(count), 1});
+    for (size_t i = 0; i < count; ++i)
+      result.push_back({{row.pixels[3 * i], row.pixels[3 * i + 1], row.pixels[3 * i + 2]}});
+  }
+  return result;
+}
+
+std::vector<float> Bench::readTable(Tables* tables, TableId id, TableInfo* info) {
+  if (tableInfo(tables, id, info) != Status::Ok) throw Failure(error_);
+  const headless::HostBuffer buffer =
+      device_->createHostBuffer(info->bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, &error_);
+  if (buffer.data() == nullptr) throw Failure(error_);
+  run([&](VkCommandBuffer commands) {
+    return recordTableReadback(tables, commands, id, buffer.buffer(), 0);
+  });
+  const size_t count = size_t{4} * info->width * info->height * info->depth;
+  std::vector<float> rgba(count);
+  const bool half = info->format == VK_FORMAT_R16G16B16A16_SFLOAT;
+  for (size_t i = 0; i < count; ++i) {
+    rgba[i] = half ? glm::unpackHalf1x16(static_cast<const uint16_t*>(buffer.data())[i])
+                   : static_cast<const float*>(buffer.data())[i];
+  }
+  return rgba;
+}
+
+TablesPointer Bench::withSource(const Parameters& parameters, const TableDesc& desc, Tables* from,
+                                const std::vector<float>& source) {
+  Tables* made = nullptr;
+  if (createTables(context_, parameters, desc, &made) != Status::Ok) throw Failure(error_);
+  TablesPointer tables(made, TablesDeleter{device_.get()});
+  for (const TableId id : {TableId::OpticalDepth, TableId::Moments, TableId::Source}) {
+    TableInfo info;
+    std::vector<float> rgba = readTable(from, id, &info);
+    if (id == TableId::Source) rgba = source;
+    upload(made, id, rgba);
+  }
+  return tables;
+}
+
+void Bench::upload(Tables* tables, TableId id, const std::vector<float>& rgba) {
+  TableInfo info;
+  if (tableInfo(tables, id, &info) != Status::Ok) throw Failure(error_);
+  const headless::HostBuffer buffer =
+      device_->createHostBuffer(info.bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, &error_);
+  if (buffer.data() == nullptr) throw Failure(error_);
+  const bool half = info.format == VK_FORMAT_R16G16B16A16_SFLOAT;
+  for (size_t i = 0; i < rgba.size(); ++i) {
+    if (half) {
+      static_cast<uint16_t*>(buffer.data())[i] = glm::packHalf1x16(rgba[i]);
+    } else {
+      static_cast<float*>(buffer.data())[i] = rgba[i];
+    }
+  }
+  run([&](VkCommandBuffer commands) {
+    return recordTableUpload(tables, commands, device_->frame(), id, buffer.buffer(), 0);
+  });
+}
+
+SkyDraw drawOfRay(const Parameters& parameters, const ProbeQuery& ray, int32_t x) {
+  SkyDraw draw;
+  Camera& camera = draw.camera;
+  camera.position_m[2] = parameters.bottomRadius_m + ray.altitude_m;
+  const double sine = std::sin(ray.viewZenith), cosine = std::cos(ray.viewZenith);
+  const double east = std::cos(ray.azimuth), north = std::sin(ray.azimuth);
+  const double forward[3] = {sine * east, sine * north, cosine};
+  const double up[3] = {-cosine * east, -cosine * north, sine};
+  std::copy_n(forward, 3, camera.forward);
+  std::copy_n(up, 3, camera.up);
+  camera.fov = 1e-4;  // Of a single pixel, whose centre is the ray.
+  draw.sun.direction[0] = std::sin(ray.sunZenith);
+  draw.sun.direction[2] = std::cos(ray.sunZenith);
+  draw.sun.irradiance = {{1.0, 1.0, 1.0}};
+  draw.viewport = {{x, 0}, {1, 1}};
+  return draw;
+}
+
+SkyDraw drawOfView(const Parameters& parameters, double altitude_m, double sun, double azimuth,
+                   double pitch, double fov, VkExtent2D size) {
+  SkyDraw draw;
+  draw.camera = cameraFromGeodetic(parameters, 0.0, 0.0, altitude_m, 0.0, pitch * kDegree, 0.0,
+                                   fov * kDegree);
+  sunDirection(0.0, 0.0, sun * kDegree, azimuth * kDegree, draw.sun.direction);
+  draw.sun.irradiance = {{1.0, 1.0, 1.0}};
+  draw.viewport = {{0, 0}, size};
+  return draw;
+}
+
+}  // namespace alpenglow::cost

@@ -1,0 +1,103 @@
+// A device, a context and a small target: what the sweeps bake and draw with.
+#pragma once
+
+#include <alpenglow/alpenglow.h>
+#include <alpenglow/cost.h>
+#include <alpenglow/headless.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "atmosphere/cost/truth.h"
+
+namespace alpenglow::cost {
+
+/// One sentence; the room's functions throw it, measure() catches it.
+class Failure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Freed with the frame that the device is at.
+struct TablesDeleter {
+  headless::Device* device = nullptr;
+  void operator()(Tables* tables) const { destroyTables(tables, device->frame()); }
+};
+using TablesPointer = std::unique_ptr<Tables, TablesDeleter>;
+struct ViewDeleter {
+  headless::Device* device = nullptr;
+  void operator()(View* view) const { destroyView(view, device->frame()); }
+};
+using ViewPointer = std::unique_ptr<View, ViewDeleter>;
+
+/// What is drawn with: tables, and how a view reads them.
+struct Drawn {
+  const Tables* tables = nullptr;
+  TableDesc desc;
+  bool sliced = true;
+  EffectFlags viewWithout = 0;  ///< Of kViewEffects.
+};
+
+/// Not thread-safe. Functions throw a Failure.
+class Bench {
+ public:
+  Bench(const std::string& device, VkExtent2D frame);
+  ~Bench();
+  Bench(const Bench&) = delete;
+  Bench& operator=(const Bench&) = delete;
+
+  headless::Device& device() { return *device_; }
+  bool software() const { return software_; }
+  const std::string& driver() const { return driver_; }
+  const std::string& vulkan() const { return vulkan_; }
+
+  /// Null, with the library's sentence in refusal(), for what this version can't bake.
+  TablesPointer bake(const Parameters& parameters, const TableDesc& desc, double* seconds);
+  const std::string& refusal() const { return error_; }
+  ResourceReport resources();
+
+  /// A view, in a rendering scope of the target's format. Throws.
+  ViewPointer view(const Drawn& drawn);
+  /// Seconds of a frame: the slice, if any, and the sky over the whole target.
+  double frame(View* view, const Drawn& drawn, const SkyDraw& draw);
+  /// What the target holds after it.
+  io::LinearImage read(VkExtent2D size);
+  /// Total radiance of rays that go on to the ground or to space, in a pixel each.
+  std::vector<Spectrum> radiance(View* view, const Drawn& drawn, const Parameters& parameters,
+                                 const std::vector<ProbeQuery>& rays);
+  /// A copy of a table, RGBA.
+  std::vector<float> readTable(Tables* tables, TableId id, TableInfo* info);
+  /// Tables of the moment solver like `from`, but for the sources.
+  TablesPointer withSource(const Parameters& parameters, const TableDesc& desc, Tables* from,
+                           const std::vector<float>& source);
+
+ private:
+  void upload(Tables* tables, TableId id, const std::vector<float>& rgba);
+  double run(const std::function<Status(VkCommandBuffer)>& record);
+  Status recordRays(VkCommandBuffer commands, View* view, const Drawn& drawn,
+                    const std::vector<SkyDraw>& draws);
+  void barrier(VkCommandBuffer commands, bool toCopy);
+  void begin(VkCommandBuffer commands, const VkRect2D& area, VkAttachmentLoadOp load);
+  template <typename Function>
+  Function function(const char* name) {
+    return reinterpret_cast<Function>(device_->function(name));
+  }
+  void describeDriver();
+
+  std::unique_ptr<headless::Device> device_;
+  Context* context_ = nullptr;
+  std::string error_, driver_, vulkan_;
+  bool software_ = false;
+  headless::Image target_;
+  headless::HostBuffer readback_;
+};
+
+/// The draw of a ray as a probe has it: a camera that looks along it, with a narrow field of view.
+SkyDraw drawOfRay(const Parameters& parameters, const ProbeQuery& ray, int32_t x);
+/// A camera above latitude 0, longitude 0, with the sun `azimuth` off its heading; degrees.
+SkyDraw drawOfView(const Parameters& parameters, double altitude_m, double sun, double azimuth,
+                   double pitch, double fov, VkExtent2D size);
+
+}  // namespace alpenglow::cost

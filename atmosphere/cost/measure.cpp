@@ -1,0 +1,330 @@
+// Goes through the configurations, and compares pictures of the models.
+#include <sys/resource.h>
+#include <sys/utsname.h>
+
+#include <alpenglow/version.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <numbers>
+#include <thread>
+
+#include "atmosphere/cost/bench.h"
+#include "atmosphere/cost/configurations.h"
+#include "atmosphere/cost/shared_exponent.h"
+
+namespace alpenglow::cost {
+namespace {
+
+/// A bake that takes longer is not repeated.
+constexpr double kLongBake_s = 10.0;
+constexpr VkExtent2D kPicture = {320, 180};
+
+struct Look {
+  const char* scene;
+  double altitude_m, sun, azimuth, pitch, fov;
+};
+constexpr Look kViews[kViewCount] = {
+    {"ground 40", 2.0, 40.0, 60.0, 10.0, 60.0}, {"ground 3", 2.0, 3.0, 30.0, 10.0, 60.0},
+    {"ground -4", 2.0, -4.0, 30.0, 10.0, 60.0}, {"ground -9", 2.0, -9.0, 30.0, 10.0, 60.0},
+    {"10 km", 1e4, 20.0, 60.0, -10.0, 60.0},    {"space", 1e6, 20.0, 60.0, -35.0, 60.0}};
+constexpr Look kScenes[] = {{"clear noon", 2.0, 60.0, 90.0, 15.0, 75.0},
+                            {"sunset", 2.0, 1.0, 10.0, 8.0, 60.0},
+                            {"twilight, away from the sun", 2.0, -4.0, 180.0, 10.0, 60.0},
+                            {"from 1,000 km", 1e6, 20.0, 60.0, -35.0, 60.0}};
+
+/// Rays of the truth that a picture shows whole.
+struct Truth {
+  truth::TruthSet set;
+  std::vector<const truth::TruthQuery*> queries;
+  std::vector<ProbeQuery> rays;
+};
+
+Truth wholeRays(const truth::TruthSet& set) {
+  Truth truth{set, {}, {}};
+  for (const truth::TruthQuery& q : truth.set.queries)
+    if (!q.query.irradiance && q.query.distance_m < 0.0 && q.band != truth::Band::Night)
+      truth.queries.push_back(&q);
+  // Neighbours share a sky slice.
+  std::ranges::stable_sort(truth.queries, [](const auto* a, const auto* b) {
+    return std::pair(a->query.altitude_m, a->query.sunZenith) <
+           std::pair(b->query.altitude_m, b->query.sunZenith);
+  });
+  for (const truth::TruthQuery* q : truth.queries) truth.rays.push_back(q->query);
+  return truth;
+}
+
+std::array<BandError, kBandCount> errorsOf(const Truth& truth, const std::vector<Spectrum>& light) {
+  std::vector<double> errors[kBandCount];
+  for (size_t i = 0; i < light.size(); ++i) {
+    ProbeAnswer answer;
+    answer.skyRadiance = light[i];
+    errors[static_cast<size_t>(truth.queries[i]->band)].push_back(
+        truth::errorOf(*truth.queries[i], answer).total);
+  }
+  std::array<BandError, kBandCount> result;
+  for (uint32_t band = 0; band < kBandCount; ++band)
+    result[band] = {truth::percentile(errors[band], 95), truth::percentile(errors[band], 100),
+                    static_cast<uint32_t>(errors[band].size())};
+  return result;
+}
+
+class Sweep {
+ public:
+  Sweep(const Options& options, Truth all, Truth evening)
+      : options_(options),
+        all_(std::move(all)),
+        evening_(std::move(evening)),
+        bench_(options.device, {options.width, options.height}) {}
+
+  Row measure(const Configuration& configuration);
+  std::vector<Comparison> compare(const std::vector<Configuration>& models);
+  Bench& bench() { return bench_; }
+
+ private:
+  TablesPointer bakeTimed(const Configuration& configuration, Row* row);
+  TablesPointer rounded(Tables* tables, const Configuration& configuration);
+  void timeFrames(View* view, const Drawn& drawn, const Configuration& configuration, Row* row);
+  io::LinearImage picture(const Configuration& model, const Look& look);
+
+  const Options& options_;
+  Truth all_, evening_;
+  Bench bench_;
+};
+
+TablesPointer Sweep::bakeTimed(const Configuration& configuration, Row* row) {
+  const Parameters& parameters = all_.set.parameters;
+  const uint64_t before = bench_.resources().bytes;
+  double seconds = 0.0;
+  // The first compiles the shaders; a frame's buffers of it are gone before the next.
+  TablesPointer tables = bench_.bake(parameters, configuration.desc, &seconds);
+  if (tables == nullptr) {
+    row->note = bench_.refusal();
+    return tables;
+  }
+  std::vector<double> times;
+  const bool once = seconds > kLongBake_s;
+  if (once) {
+    times.push_back(seconds);
+    row->note = "baked once, shaders compiled in it";
+  }
+  for (int i = 0; i < (once ? 0 : options_.quick ? 1 : 3); ++i) {
+    tables.reset();
+    bench_.resources();
+    tables = bench_.bake(parameters, configuration.desc, &seconds);
+    times.push_back(seconds);
+  }
+  row->bake_s = timingOf(times);
+  const ResourceReport after = bench_.resources();
+  row->bytes = after.bytes - before;
+  return tables;
+}
+
+// With the table of sources rounded, which is the one that is stored in half floats.
+TablesPointer Sweep::rounded(Tables* tables, const Configuration& configuration) {
+  TableInfo info;
+  std::vector<float> rgba = bench_.readTable(tables, TableId::Source, &info);
+  for (size_t i = 0; i < rgba.size(); i += 4) {
+    float rgb[3];
+    unpackSharedExponent(packSharedExponent(&rgba[i]), rgb);
+    std::copy_n(rgb, 3, &rgba[i]);
+  }
+  TableDesc desc = configuration.desc;
+  desc.format = TableFormat::Float;  // so that nothing is rounded twice
+  return bench_.withSource(all_.set.parameters, desc, tables, rgba);
+}
+
+void Sweep::timeFrames(View* view, const Drawn& drawn, const Configuration& configuration,
+                       Row* row) {
+  const bool groundOnly =
+      configuration.onlySun_deg != 0.0 || !hasEffect(configuration.viewWithout, Effect::SpaceViews);
+  for (uint32_t i = 0; i < kViewCount; ++i) {
+    const Look& look = kViews[i];
+    if (look.altitude_m > 6e4 && groundOnly) continue;
+    const double sun = configuration.onlySun_deg != 0.0 ? configuration.onlySun_deg : look.sun;
+    const SkyDraw draw = drawOfView(all_.set.parameters, look.altitude_m, sun, look.azimuth,
+                                    look.pitch, look.fov, {options_.width, options_.height});
+    std::vector<double> times;
+    bench_.frame(view, drawn, draw);
+    double budget_s = options_.quick ? 0.6 : 2.0;
+    for (int k = 0; k < (options_.quick ? 3 : 7) && (k < 2 || budget_s > 0.0); ++k) {
+      times.push_back(1e3 * bench_.frame(view, drawn, draw));
+      budget_s -= 1e-3 * times.back();
+    }
+    row->frame_ms[i] = timingOf(times);
+  }
+}
+
+Row Sweep::measure(const Configuration& configuration) {
+  Row row;
+  row.sweep = configuration.sweep;
+  row.name = configuration.name;
+  row.family = configuration.family;
+  row.detail = configuration.detail;
+  const Truth& truth = configuration.onlySun_deg != 0.0 ? evening_ : all_;
+  TablesPointer tables = bakeTimed(configuration, &row);
+  if (tables == nullptr) return row;
+  if (configuration.storage == Storage::SharedExponent) {
+    tables = rounded(tables.get(), configuration);
+    row.note = "its cost is that of 32-bit floats";
+  }
+  Drawn drawn{tables.get(), configuration.desc, configuration.sliced, 0};
+  {
+    // Rays from everywhere, so with all that a view can draw; frames as configured.
+    const ViewPointer view = bench_.view(drawn);
+    row.errors =
+        errorsOf(truth, bench_.radiance(view.get(), drawn, truth.set.parameters, truth.rays));
+  }
+  drawn.viewWithout = configuration.viewWithout;
+  const uint64_t before = bench_.resources().bytes;
+  const ViewPointer view = bench_.view(drawn);
+  row.bytes += bench_.resources().bytes - before;
+  timeFrames(view.get(), drawn, configuration, &row);
+  row.peakBytes = std::max(row.bytes, bench_.resources().peakBytes);
+  return row;
+}
+
+io::LinearImage Sweep::picture(const Configuration& model, const Look& look) {
+  double seconds = 0.0;
+  const TablesPointer tables = bench_.bake(all_.set.parameters, model.desc, &seconds);
+  if (tables == nullptr) throw Failure(bench_.refusal());
+  const Drawn drawn{tables.get(), model.desc, model.sliced, 0};
+  const ViewPointer view = bench_.view(drawn);
+  SkyDraw draw = drawOfView(all_.set.parameters, look.altitude_m, look.sun, look.azimuth,
+                            look.pitch, look.fov, kPicture);
+  draw.sun.discRadius = 0.2667 * std::numbers::pi / 180.0;
+  bench_.frame(view.get(), drawn, draw);
+  return bench_.read(kPicture);
+}
+
+/// Blue where the model is darker, red where it is brighter, full at a factor of 2; white: equal.
+io::ByteImage differenceOf(const io::LinearImage& image, const io::LinearImage& finest) {
+  io::ByteImage result{image.width, image.height, std::vector<uint8_t>(image.pixels.size())};
+  float brightest = 0.0f;
+  for (const float value : finest.pixels) brightest = std::max(brightest, value);
+  const float floor = 1e-4f * std::min(brightest, 1e3f);
+  for (size_t i = 0; i < image.pixels.size(); i += 3) {
+    const auto luminance = [i](const io::LinearImage& of) {
+      return of.pixels[i] * 0.2126f + of.pixels[i + 1] * 0.7152f + of.pixels[i + 2] * 0.0722f;
+    };
+    const float a = luminance(image) + floor, b = luminance(finest) + floor;
+    const float off = std::clamp(std::log2(a / b), -1.0f, 1.0f);
+    const auto byte = [](float share) { return static_cast<uint8_t>(255.0f * share + 0.5f); };
+    result.pixels[i] = byte(off < 0.0f ? 1.0f + 0.87f * off : 1.0f - 0.16f * off);
+    result.pixels[i + 1] = byte(1.0f - 0.75f * std::abs(off));
+    result.pixels[i + 2] = byte(off > 0.0f ? 1.0f - 0.87f * off : 1.0f + 0.16f * off);
+  }
+  return result;
+}
+
+std::vector<Comparison> Sweep::compare(const std::vector<Configuration>& models) {
+  Configuration finest = models.front();
+  finest.sliced = false;
+  finest.desc.quality = options_.quick ? Quality::Medium : Quality::High;
+  std::vector<Comparison> result;
+  for (const Look& look : kScenes) {
+    const io::LinearImage best = picture(finest, look);
+    const double exposure = io::automaticExposure(best);
+    for (const Configuration& model : models) {
+      try {
+        const io::LinearImage image = picture(model, look);
+        result.push_back({look.scene, model.name,
+                          io::toneMapped(image, exposure, io::ToneMap::Filmic),
+                          differenceOf(image, best)});
+      } catch (const Failure&) {
+        // Its row says why.
+      }
+    }
+  }
+  return result;
+}
+
+std::string today() {
+  char text[32];
+  const std::time_t now = std::time(nullptr);
+  std::tm broken = {};
+  gmtime_r(&now, &broken);
+  std::strftime(text, sizeof text, "%Y-%m-%d %H:%M UTC", &broken);
+  return text;
+}
+
+std::string machine() {
+  std::string model = "unknown processor", line;
+  std::ifstream info("/proc/cpuinfo");
+  while (std::getline(info, line)) {
+    if (line.rfind("model name", 0) != 0) continue;
+    model = line.substr(line.find(':') + 2);
+    break;
+  }
+  utsname system = {};
+  uname(&system);
+  return std::to_string(std::thread::hardware_concurrency()) + " x " + model + ", " +
+         system.sysname + " " + system.release;
+}
+
+/// What the pictures compare: one of each family of the sweep of models.
+std::vector<Configuration> familiesOf(const std::vector<Configuration>& all) {
+  std::vector<Configuration> models;
+  for (const Configuration& c : all) {
+    const bool known = std::ranges::any_of(
+        models, [&](const Configuration& other) { return other.family == c.family; });
+    if (c.sweep == "model" && !known) models.push_back(c);
+  }
+  return models;
+}
+
+Report measureAll(const Options& options, Truth all, Truth evening) {
+  const auto start = std::chrono::steady_clock::now();
+  Report report;
+  Sweep sweep(options, std::move(all), std::move(evening));
+  std::vector<Configuration> list = configurations(options.quick);
+  if (options.only)
+    std::erase_if(list, [&](const auto& c) { return !options.only(c.sweep + "/" + c.name); });
+  const double steps = static_cast<double>(list.size() + 2);
+  for (size_t i = 0; i < list.size(); ++i) {
+    if (options.progress)
+      options.progress(static_cast<double>(i) / steps, list[i].sweep + ": " + list[i].name);
+    report.rows.push_back(sweep.measure(list[i]));
+  }
+  if (options.progress) options.progress((steps - 2.0) / steps, "pictures");
+  if (const auto models = familiesOf(list); !models.empty())
+    report.comparisons = sweep.compare(models);
+  if (options.progress) options.progress((steps - 1.0) / steps, "light shafts");
+  if (options.more) {
+    auto more = options.more();
+    if (!more) throw Failure(more.error);
+    report.rows.insert(report.rows.end(), more->begin(), more->end());
+  }
+  Bench& bench = sweep.bench();
+  report.device = bench.device().name();
+  report.driver = bench.driver();
+  report.vulkan = bench.vulkan();
+  report.clock = bench.software() ? "user CPU of all threads" : "GPU timestamps";
+  report.library = ALPENGLOW_VERSION_STRING;
+  report.date = today();
+  report.machine = machine();
+  report.command = options.command;
+  report.quick = options.quick;
+  report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return report;
+}
+
+}  // namespace
+
+io::Result<Report> measure(const Options& options) {
+  const auto all = truth::loadTruth(options.truthFolder, "earth");
+  if (!all) return io::Result<Report>::failure(all.error);
+  const auto evening = truth::loadTruth(options.truthFolder, "evening");
+  if (!evening) return io::Result<Report>::failure(evening.error);
+  try {
+    return measureAll(options, wholeRays(*all), wholeRays(*evening));
+  } catch (const Failure& failure) {
+    return io::Result<Report>::failure(failure.what());
+  }
+}
+
+}  // namespace alpenglow::cost

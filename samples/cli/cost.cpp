@@ -1,0 +1,25 @@
+// alpenglow cost: the accuracy-against-time report.
+#include <alpenglow/cost.h>
+
+#include "commands.h"
+#include "failure.h"
+#include "progress.h"
+#include "sample_scenes.h"
+
+namespace alpenglow::cli {
+
+void runCost(const CostArguments& arguments) {
+  cost::Options options;
+  options.quick = arguments.quick;
+  options.device = arguments.device;
+  options.truthFolder = findData("truth", ALPENGLOW_TRUTH_DIR);
+  options.command = "alpenglow cost -o " + arguments.folder + (arguments.quick ? " --quick" : "");
+  // A file in the folder's place is said before minutes of work.
+  check(cost::prepareFolder(arguments.folder));
+  Progress bar("Measuring");
+  options.progress = [&bar](double share, const std::string& what) { bar.update(share, what); };
+  const cost::Report report = take(cost::measure(options));
+  check(cost::writeReport(report, arguments.folder));
+}
+
+}  // namespace alpenglow::cli
