@@ -98,11 +98,11 @@ Status ProbePass::makeLayouts() {
 
 Status ProbePass::pipeline(const TableDesc& tables, VkPipeline* out) {
   const std::scoped_lock lock(mutex_);
-  const bool moments = tables.solver == Solver::Moments;
-  VkPipeline& slot = pipelines_[moments ? 0 : 1 + static_cast<uint32_t>(tables.mie)];
+  const bool isPacked = tables.mie == MieStorage::Packed;  // of Solver::Standard
+  VkPipeline& slot = pipelines_[isPacked ? kSolverCount : static_cast<uint32_t>(tables.solver)];
   Status status = Status::Ok;
   if (slot == VK_NULL_HANDLE) {
-    const engine::SpecConstant packed = engine::specBool(0, tables.mie == MieStorage::Packed);
+    const engine::SpecConstant packed = engine::specBool(0, isPacked);
     engine::ComputePipelineDesc desc;
     desc.shader = probeShader(tables.solver, tables.without);
     desc.layout = layout_;

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "atmosphere/bake/table_set.h"
+#include "atmosphere/model/solvers.h"
 
 namespace alpenglow::sky {
 
@@ -50,7 +51,7 @@ class ProbePass {
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   std::mutex mutex_;
-  VkPipeline pipelines_[3] = {};  ///< Of moments, of full and packed Mie; made when first used.
+  VkPipeline pipelines_[kSolverCount + 1] = {};  ///< By solver, then packed; made when first used.
 };
 
 }  // namespace alpenglow::sky

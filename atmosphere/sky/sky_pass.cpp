@@ -5,6 +5,7 @@
 #include <bit>
 #include <new>
 
+#include "atmosphere/model/solvers.h"
 #include "atmosphere/sky/shader_choice.h"
 
 namespace alpenglow {
@@ -70,10 +71,10 @@ Status checkViewDesc(const engine::Device& device, const ViewDesc& desc) {
                        desc.viewMask);
   }
   if (desc.projection > Projection::Orthographic || desc.depth > DepthConvention::Reversed ||
-      desc.mie > MieStorage::Packed || desc.solver > Solver::Standard) {
+      desc.mie > MieStorage::Packed || desc.solver > Solver::Hillaire) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
                        "ViewDesc has projection %u, depth %u, mie %u and solver %u, but the "
-                       "greatest are 2, 1, 1 and 1.",
+                       "greatest are 2, 1, 1 and 5.",
                        static_cast<uint32_t>(desc.projection), static_cast<uint32_t>(desc.depth),
                        static_cast<uint32_t>(desc.mie), static_cast<uint32_t>(desc.solver));
   }
@@ -153,7 +154,8 @@ Status View::makeSlice() {
                                                                     : "with another MieStorage");
   }
   desc_.skySlice = nullptr;  // Only their shape counts: they may be destroyed before the view.
-  if (desc_.projection == Projection::Orthographic) return Status::Ok;  // An observer a pixel.
+  // Orthographic cameras have an observer a pixel; most of the simpler models have no slice.
+  if (desc_.projection == Projection::Orthographic || !hasSkySlice(desc_.solver)) return Status::Ok;
   return sky::SkySlice::create(resources_, tables, &slice_);
 }
 
@@ -262,8 +264,7 @@ Status View::checkRecord(const Tables& tables, const SkyDraw& draw, const char* 
   if (tables.desc().solver != desc_.solver) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "The tables are of Solver::%s, but ViewDesc::solver says %s.",
-                        tables.desc().solver == Solver::Moments ? "Moments" : "Standard",
-                        desc_.solver == Solver::Moments ? "Moments" : "Standard");
+                        solverEnumerator(tables.desc().solver), solverEnumerator(desc_.solver));
   }
   if (tables.desc().mie != desc_.mie) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
@@ -277,7 +278,8 @@ Status View::checkRecord(const Tables& tables, const SkyDraw& draw, const char* 
 Status View::recordSlice(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw) {
   const Status status = checkRecord(tables, draw, "recordSkySlice");
   if (status != Status::Ok) return status;
-  if (slice_ == nullptr && desc_.projection == Projection::Orthographic) return Status::Ok;
+  const bool none = desc_.projection == Projection::Orthographic || !hasSkySlice(desc_.solver);
+  if (slice_ == nullptr && none) return Status::Ok;
   if (slice_ == nullptr) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "recordSkySlice got a view without a slice, but needs one made with "

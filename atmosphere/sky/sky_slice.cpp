@@ -9,7 +9,7 @@
 namespace alpenglow::sky {
 namespace {
 
-/// Push constants of sky_slice.comp; the standard solver's reads the first two.
+/// Push constants of sky_slice.comp; the standard solver's reads the first two, Hillaire's three.
 struct SliceConstants {
   float altitude, muS, horizon, span, bend;
 };
@@ -43,6 +43,7 @@ bool RecordedFor::is(const Tables& tables, const SkyDraw& draw) const {
 }
 
 VkExtent3D SkySlice::extentFor(const TableDesc& desc) {
+  if (desc.solver == Solver::Hillaire) return {192, 108, 1};  // The paper's.
   return desc.solver == Solver::Moments
              ? momentSlice(desc.quality)
              : VkExtent3D{desc.sizes.scatteringNu, desc.sizes.scatteringMu, 1};

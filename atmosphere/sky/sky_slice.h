@@ -57,7 +57,7 @@ class SkySlice {
   static bool possible(const Tables& tables, const SkyDraw& draw);
 
   /// What needs no phase function, or C_*; single Mie scattering without its own, or C_M; when
-  /// packed the first again, so that each binding has an image.
+  /// packed the first again, so that each binding has an image. Hillaire's has one: all light.
   const engine::Image& image() const { return images_[0]; }
   const engine::Image& mieImage() const { return images_[count_ - 1]; }
   const VkExtent3D& extent() const { return extent_; }
@@ -71,7 +71,7 @@ class SkySlice {
         without_(desc.without),
         mie_(desc.mie),
         extent_(extentFor(desc)),
-        count_(mie_ == MieStorage::Full ? 2 : 1) {}
+        count_(mie_ == MieStorage::Full && solver_ != Solver::Hillaire ? 2 : 1) {}
   static VkExtent3D extentFor(const TableDesc& desc);
   Status make();
   Status makePipeline(TableFormat format);

@@ -51,9 +51,9 @@ ShaftChoice chooseShafts(const RenderArguments& arguments, const io::Scene& scen
   if (solver == Solver::Moments || choice.method == SceneShafts::Off) return choice;
   if (choice.method != SceneShafts::Auto) {
     throw Failure(std::string("The light shafts ") + nameOf(choice.method) +
-                  " need tables of the solver moments, but these are of standard.");
+                  " need tables of the solver moments, but these are of another.");
   }
-  choice.whyOff = "they need tables of the solver moments, and these are of standard.";
+  choice.whyOff = "they need tables of the solver moments, and these are of another.";
   choice.method = SceneShafts::Off;
   return choice;
 }

@@ -1,5 +1,7 @@
 // The tables of Solver::Moments: a part of alpenglow/atmosphere.glsl.
 
+#define ALPENGLOW_PATH_LIGHT  // single and multiple scattering of a ray apart
+
 layout(set = ALPENGLOW_SET, binding = 1) uniform sampler2D alpenglowDepthTable;
 layout(set = ALPENGLOW_SET, binding = 2) uniform sampler2D alpenglowMomentsTable;
 layout(set = ALPENGLOW_SET, binding = 3) uniform sampler3D alpenglowSourceTable;
