@@ -6,6 +6,7 @@
 
 #include "atmosphere/api/context_impl.h"
 #include "atmosphere/api/cpu_field.h"
+#include "atmosphere/model/solvers.h"
 
 namespace alpenglow {
 inline namespace v1 {
@@ -67,8 +68,9 @@ Status checkCall(const Tables& tables, const TableReadbacks& copies, const Probe
   const engine::Device& device = tables.resources().device();
   if (tables.desc().solver != Solver::Moments) {
     return device.fail(Status::Unsupported, VK_SUCCESS,
-                       "answerQueries got tables of Solver::Standard, but needs those of "
-                       "Solver::Moments; recordProbe answers for either.");
+                       "answerQueries got tables of Solver::%s, but needs those of "
+                       "Solver::Moments; recordProbe answers for any.",
+                       solverEnumerator(tables.desc().solver));
   }
   bool rays = false;
   for (uint32_t i = 0; i < count; ++i) {

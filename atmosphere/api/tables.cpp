@@ -4,6 +4,8 @@
 
 #include "atmosphere/api/context_impl.h"
 #include "atmosphere/model/query.h"
+#include "atmosphere/model/solvers.h"
+#include "atmosphere/models/model_plan.h"
 
 namespace alpenglow {
 inline namespace v1 {
@@ -18,6 +20,14 @@ Status checkFrame(const Tables& tables, const FrameInfo& frame, const char* call
                                           "the last completed one; count from 1.",
                                           call, static_cast<unsigned long long>(frame.submitting),
                                           static_cast<unsigned long long>(frame.completed));
+}
+
+Tables::MakePlan planOf(Solver solver) {
+  if (solver == Solver::Standard) return bake::standardPlan;
+  if (solver != Solver::Moments) return models::modelPlan;
+  return [](const Parameters& parameters, const TableDesc& desc, TableFormat) {
+    return bake::momentPlan(parameters, desc);
+  };
 }
 
 }  // namespace
@@ -44,7 +54,13 @@ Status createTables(Context* context, const Parameters& parameters, const TableD
   status = bake::checkSizes(*context->device, full);
   if (status != Status::Ok) return status;
   const bool bakes = (context->capabilities & kCapabilityBake) != 0;
-  return Tables::create(*context->bake, simulated, full, bakes, out);
+  if (!bakes && isModel(full.solver)) {
+    return context->device->fail(Status::Unsupported, VK_SUCCESS,
+                                 "Tables of Solver::%s can only be baked, but the context was made "
+                                 "without kCapabilityBake.",
+                                 solverEnumerator(full.solver));
+  }
+  return Tables::create(*context->bake, simulated, full, planOf(full.solver), bakes, out);
 }
 
 void destroyTables(Tables* tables, const FrameInfo& frame) { Tables::destroy(tables, frame); }

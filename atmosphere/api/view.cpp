@@ -24,7 +24,7 @@ Status checkShafts(const Context& context, const ViewDesc& desc) {
       Status::InvalidArgument, VK_SUCCESS,
       "ViewDesc::shafts %s, but a view needs shafts of its own context, made for its sceneDepth, "
       "depth, projection and without, and Solver::Moments.",
-      desc.solver != Solver::Moments              ? "are for a view of Solver::Standard"
+      desc.solver != Solver::Moments              ? "are for a view of another solver"
       : &desc.shafts->resources() != context.bake ? "are of another context"
                                                   : "were made for another picture");
 }

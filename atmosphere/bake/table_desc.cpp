@@ -3,6 +3,7 @@
 
 #include "atmosphere/bake/moment_shape.h"
 #include "atmosphere/bake/table_set.h"
+#include "atmosphere/model/solvers.h"
 
 namespace alpenglow::bake {
 namespace {
@@ -37,7 +38,7 @@ bool anyGiven(const Counts& counts, const uint32_t Counts::*first) {
 }
 
 Status checkEnumerations(const engine::Device& device, const TableDesc& desc) {
-  if (desc.solver <= Solver::Standard && desc.format <= TableFormat::Float &&
+  if (desc.solver <= Solver::Hillaire && desc.format <= TableFormat::Float &&
       desc.mie <= MieStorage::Packed && desc.quality <= Quality::Ultra) {
     return Status::Ok;
   }
@@ -47,29 +48,37 @@ Status checkEnumerations(const engine::Device& device, const TableDesc& desc) {
       "%u, %u, %u and %u.",
       static_cast<uint32_t>(desc.solver), static_cast<uint32_t>(desc.format),
       static_cast<uint32_t>(desc.mie), static_cast<uint32_t>(desc.quality),
-      static_cast<uint32_t>(Solver::Standard), static_cast<uint32_t>(TableFormat::Float),
+      static_cast<uint32_t>(Solver::Hillaire), static_cast<uint32_t>(TableFormat::Float),
       static_cast<uint32_t>(MieStorage::Packed), static_cast<uint32_t>(Quality::Ultra));
 }
 
-// What belongs to the other solver must be left at its default: it would do nothing.
+// What belongs to another solver must be left at its default: it would do nothing.
 Status checkCombination(const engine::Device& device, const TableDesc& desc) {
-  const auto refuse = [&device](const char* solver, const char* given) {
+  const bool moments = desc.solver == Solver::Moments, model = isModel(desc.solver);
+  const struct {
+    bool given, allowed;
+    const char* name;
+  } choices[] = {
+      {desc.quality != Quality::Default, moments, "a Quality"},
+      {anyGiven(desc.moments, &MomentSettings::depthMu), moments, "MomentSettings"},
+      {!allSuns(desc), moments, "a range of suns"},
+      {desc.mie == MieStorage::Packed, !moments && !model, "MieStorage::Packed"},
+      {anyGiven(desc.sizes, &TableSizes::transmittanceMu), !moments && !model, "TableSizes"},
+      {desc.orders != 0, !model, "orders"},
+      {desc.keepOrders, !model, "keepOrders"},
+      {desc.without != 0, !model, "effects that it is without"},
+      {desc.samples != 0, defaultSamples(desc.solver) != 0, "samples"}};
+  for (const auto& choice : choices) {
+    if (!choice.given || choice.allowed) continue;
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "TableDesc has Solver::%s and %s, but that belongs to the other solver: "
+                       "TableDesc has Solver::%s and %s, but that belongs to another solver: "
                        "leave it at its default.",
-                       solver, given);
-  };
-  if (desc.solver == Solver::Moments) {
-    if (desc.mie == MieStorage::Packed) return refuse("Moments", "MieStorage::Packed");
-    if (anyGiven(desc.sizes, &TableSizes::transmittanceMu)) return refuse("Moments", "TableSizes");
-  } else {
-    if (desc.quality != Quality::Default) return refuse("Standard", "a Quality");
-    if (anyGiven(desc.moments, &MomentSettings::depthMu))
-      return refuse("Standard", "MomentSettings");
-    if (!allSuns(desc)) return refuse("Standard", "a range of suns");
-    if (desc.without != 0) return refuse("Standard", "TableDesc::without");
+                       solverEnumerator(desc.solver), choice.name);
   }
-  return Status::Ok;
+  if (desc.samples <= kMaxSamples) return Status::Ok;
+  return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                     "TableDesc::samples is %u, but must be from 1 to %u, or 0 for the default.",
+                     desc.samples, kMaxSamples);
 }
 
 Status checkSuns(const engine::Device& device, const TableDesc& desc) {
@@ -166,6 +175,10 @@ TableDesc completed(const Parameters& parameters, const TableDesc& desc) {
       full.moments.nodesMuS = nodesOfSunRange(parameters, desc, full.moments.nodesMuS);
     return full;
   }
+  if (isModel(desc.solver)) {
+    if (full.samples == 0) full.samples = defaultSamples(desc.solver);
+    return full;
+  }
   const TableSizes defaults = defaultTableSizes();
   const uint32_t* from = &defaults.transmittanceMu;
   uint32_t* to = &full.sizes.transmittanceMu;
@@ -194,6 +207,7 @@ Status checkTableDesc(const engine::Device& device, const TableDesc& desc) {
 Status checkSizes(const engine::Device& device, const TableDesc& desc) {
   if (desc.solver == Solver::Standard) return checkStandardSizes(device, desc.sizes);
   const MomentSettings& s = desc.moments;
+  if (isModel(desc.solver)) return Status::Ok;
   if (2 * s.azimuths > s.degree) return Status::Ok;
   return device.fail(
       Status::InvalidArgument, VK_SUCCESS,

@@ -157,7 +157,9 @@ Status Tables::missing(TableId id) const {
   const bool known = index < kTableIdCount;
   const TableKind kind =
       known ? kTableKinds[index] : TableKind{"of an unknown TableId", true, true};
-  const bool hasIt = desc_.solver == Solver::Moments ? kind.moments : kind.standard;
+  const bool hasIt = desc_.solver == Solver::Moments    ? kind.moments
+                     : desc_.solver == Solver::Standard ? kind.standard
+                                                        : false;  // The models' have no id.
   const char* needs = !known   ? "one of the enumeration"
                       : !hasIt ? (kind.moments ? "Solver::Moments" : "Solver::Standard")
                       : isOrderTable(id) && !desc_.keepOrders ? "TableDesc::keepOrders"

@@ -16,7 +16,7 @@ Tables::Tables(bake::Resources& resources, const Parameters& parameters, const T
       bakes_(bakes) {}
 
 Status Tables::create(bake::Resources& resources, const Parameters& parameters,
-                      const TableDesc& desc, bool bakes, Tables** out) {
+                      const TableDesc& desc, MakePlan plan, bool bakes, Tables** out) {
   *out = nullptr;
   engine::Device& device = resources.device();
   auto* tables = new (std::nothrow) Tables(resources, parameters, desc, bakes);
@@ -26,10 +26,7 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
   ++resources.liveTables;
   Status status = Status::Ok;
   try {
-    tables->plan_ =
-        desc.solver == Solver::Moments
-            ? bake::momentPlan(parameters, desc)
-            : bake::standardPlan(parameters, desc, bake::finestFormat(device, desc.format));
+    tables->plan_ = plan(parameters, desc, bake::finestFormat(device, desc.format));
     for (const bake::Pass& pass : tables->plan_.passes) {
       const bake::Stage& stage = tables->plan_.stages[pass.stage];
       tables->unitsTotal_ += stage.unitsPerRow() * stage.rows;

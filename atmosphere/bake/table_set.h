@@ -34,9 +34,11 @@ inline namespace v1 {
 struct Tables {
  public:
   /// Both arguments are checked and completed. Allocates; records nothing. Without `bakes` the
-  /// tables can only be uploaded, and nothing is made that a bake alone needs.
+  /// tables can only be uploaded, and nothing is made that a bake alone needs. `plan` makes the
+  /// solver's plan of them; the last argument is finestFormat.
+  using MakePlan = bake::SolverPlan (*)(const Parameters&, const TableDesc&, TableFormat);
   static Status create(bake::Resources& resources, const Parameters& parameters,
-                       const TableDesc& desc, bool bakes, Tables** out);
+                       const TableDesc& desc, MakePlan plan, bool bakes, Tables** out);
   static void destroy(Tables* tables, const FrameInfo& frame);
 
   Status recordBake(VkCommandBuffer commands, const FrameInfo& frame, uint64_t budget,

@@ -7,6 +7,7 @@
 
 #include "atmosphere/io/atmosphere_json.h"
 #include "atmosphere/io/scene_balloons.h"
+#include "atmosphere/io/scene_model.h"
 #include "atmosphere/io/scene_terrain.h"
 
 namespace alpenglow::io {
@@ -152,10 +153,10 @@ void readShafts(JsonErrors* errors, ObjectReader* reader, Scene* scene) {
 }
 
 Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& folder) {
-  ObjectReader reader(
-      errors, value, "", "",
-      {"atmosphere", "sun", "camera", "ground", "terrain", "balloons", "size", "exposure",
-       "tone_map", "model", "solver", "orders", "quality", "shafts", "shaft_samples", "effects"});
+  ObjectReader reader(errors, value, "", "",
+                      {"atmosphere", "sun", "camera", "ground", "terrain", "balloons", "size",
+                       "exposure", "tone_map", "model", "model_samples", "solver", "orders",
+                       "quality", "shafts", "shaft_samples", "effects"});
   Scene scene;
   const Json& atmosphere = reader.required("atmosphere");
   const Json& sun = reader.required("sun");
@@ -182,7 +183,7 @@ Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& fo
   scene.exposure = readExposure(&reader);
   scene.toneMap = static_cast<ToneMap>(reader.choice("tone_map", toneMapNames()));
   readTableChoices(&reader, &scene);
-  reader.choice("model", {"bruneton"});
+  readModel(errors, &reader, &scene);
   readShafts(errors, &reader, &scene);
   return scene;
 }

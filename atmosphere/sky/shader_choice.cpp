@@ -1,7 +1,11 @@
 #include "atmosphere/sky/shader_choice.h"
 
 #include <alpenglow/shaders/air_fragment.h>
+#include <alpenglow/shaders/air_fragment_hillaire.h>
+#include <alpenglow/shaders/air_fragment_hoffman_preetham.h>
 #include <alpenglow/shaders/air_fragment_molecules.h>
+#include <alpenglow/shaders/air_fragment_oneil.h>
+#include <alpenglow/shaders/air_fragment_schafhitzel.h>
 #include <alpenglow/shaders/air_fragment_shafts.h>
 #include <alpenglow/shaders/air_fragment_shafts_molecules.h>
 #include <alpenglow/shaders/air_fragment_shafts_single.h>
@@ -20,7 +24,11 @@
 #include <alpenglow/shaders/air_volume_half_molecules.h>
 #include <alpenglow/shaders/air_volume_half_single.h>
 #include <alpenglow/shaders/probe.h>
+#include <alpenglow/shaders/probe_hillaire.h>
+#include <alpenglow/shaders/probe_hoffman_preetham.h>
 #include <alpenglow/shaders/probe_molecules.h>
+#include <alpenglow/shaders/probe_oneil.h>
+#include <alpenglow/shaders/probe_schafhitzel.h>
 #include <alpenglow/shaders/probe_single.h>
 #include <alpenglow/shaders/probe_standard.h>
 #include <alpenglow/shaders/shaft_surface_fragment.h>
@@ -30,13 +38,20 @@
 #include <alpenglow/shaders/shaft_surface_fragment_volume_molecules.h>
 #include <alpenglow/shaders/shaft_surface_fragment_volume_single.h>
 #include <alpenglow/shaders/sky_fragment.h>
+#include <alpenglow/shaders/sky_fragment_hillaire.h>
+#include <alpenglow/shaders/sky_fragment_hoffman_preetham.h>
 #include <alpenglow/shaders/sky_fragment_map.h>
+#include <alpenglow/shaders/sky_fragment_map_hillaire.h>
+#include <alpenglow/shaders/sky_fragment_map_hoffman_preetham.h>
 #include <alpenglow/shaders/sky_fragment_map_molecules.h>
+#include <alpenglow/shaders/sky_fragment_map_oneil.h>
+#include <alpenglow/shaders/sky_fragment_map_schafhitzel.h>
 #include <alpenglow/shaders/sky_fragment_map_shafts.h>
 #include <alpenglow/shaders/sky_fragment_map_shafts_molecules.h>
 #include <alpenglow/shaders/sky_fragment_map_shafts_single.h>
 #include <alpenglow/shaders/sky_fragment_map_single.h>
 #include <alpenglow/shaders/sky_fragment_map_slice.h>
+#include <alpenglow/shaders/sky_fragment_map_slice_hillaire.h>
 #include <alpenglow/shaders/sky_fragment_map_slice_molecules.h>
 #include <alpenglow/shaders/sky_fragment_map_slice_shafts.h>
 #include <alpenglow/shaders/sky_fragment_map_slice_shafts_molecules.h>
@@ -45,11 +60,14 @@
 #include <alpenglow/shaders/sky_fragment_map_slice_standard.h>
 #include <alpenglow/shaders/sky_fragment_map_standard.h>
 #include <alpenglow/shaders/sky_fragment_molecules.h>
+#include <alpenglow/shaders/sky_fragment_oneil.h>
+#include <alpenglow/shaders/sky_fragment_schafhitzel.h>
 #include <alpenglow/shaders/sky_fragment_shafts.h>
 #include <alpenglow/shaders/sky_fragment_shafts_molecules.h>
 #include <alpenglow/shaders/sky_fragment_shafts_single.h>
 #include <alpenglow/shaders/sky_fragment_single.h>
 #include <alpenglow/shaders/sky_fragment_slice.h>
+#include <alpenglow/shaders/sky_fragment_slice_hillaire.h>
 #include <alpenglow/shaders/sky_fragment_slice_molecules.h>
 #include <alpenglow/shaders/sky_fragment_slice_shafts.h>
 #include <alpenglow/shaders/sky_fragment_slice_shafts_molecules.h>
@@ -65,6 +83,10 @@
 #include <alpenglow/shaders/sky_slice_half_molecules.h>
 #include <alpenglow/shaders/sky_slice_half_single.h>
 #include <alpenglow/shaders/sky_slice_half_standard.h>
+#include <alpenglow/shaders/sky_slice_hillaire_rgba16f.h>
+#include <alpenglow/shaders/sky_slice_hillaire_rgba32f.h>
+
+#include "atmosphere/model/solvers.h"
 
 namespace alpenglow::sky {
 namespace {
@@ -86,9 +108,34 @@ Kind kindOf(Solver solver, EffectFlags without) {
 /// Of every solver.
 #define ALPENGLOW_SHADERS(name) ALPENGLOW_MOMENT_SHADERS(name), ALPENGLOW_SHADER(name##Standard)
 
+/// What a simpler model has compiled; without shafts, and without slice unless it is Hillaire's.
+struct ModelText {
+  engine::Shader sky, skyMap, air, probe;
+};
+#define ALPENGLOW_MODEL(name)                                                      \
+  ModelText {                                                                      \
+    ALPENGLOW_SHADER(kSkyFragment##name), ALPENGLOW_SHADER(kSkyFragmentMap##name), \
+        ALPENGLOW_SHADER(kAirFragment##name), ALPENGLOW_SHADER(kProbe##name)       \
+  }
+
+ModelText modelText(Solver solver) {
+  const ModelText texts[] = {ALPENGLOW_MODEL(HoffmanPreetham), ALPENGLOW_MODEL(Oneil),
+                             ALPENGLOW_MODEL(Schafhitzel), ALPENGLOW_MODEL(Hillaire)};
+  return texts[static_cast<uint32_t>(solver) - static_cast<uint32_t>(Solver::HoffmanPreetham)];
+}
+
+engine::Shader modelSkyShader(Solver solver, const SkyText& text) {
+  if (text.slice) {
+    return text.map ? ALPENGLOW_SHADER(kSkyFragmentMapSliceHillaire)
+                    : ALPENGLOW_SHADER(kSkyFragmentSliceHillaire);
+  }
+  return text.map ? modelText(solver).skyMap : modelText(solver).sky;
+}
+
 }  // namespace
 
 engine::Shader skyShader(Solver solver, EffectFlags without, const SkyText& text) {
+  if (isModel(solver)) return modelSkyShader(solver, text);
   const Kind kind = kindOf(solver, without);
   const engine::Shader shaded[2][2][3] = {{{ALPENGLOW_MOMENT_SHADERS(kSkyFragmentShafts)},
                                            {ALPENGLOW_MOMENT_SHADERS(kSkyFragmentSliceShafts)}},
@@ -102,6 +149,7 @@ engine::Shader skyShader(Solver solver, EffectFlags without, const SkyText& text
 }
 
 engine::Shader airShader(Solver solver, EffectFlags without, bool volume, bool shafts) {
+  if (isModel(solver)) return modelText(solver).air;
   const Kind kind = kindOf(solver, without);
   const engine::Shader integrated[4] = {ALPENGLOW_SHADERS(kAirFragment)};
   if (kind == kStandard || (!volume && !shafts)) return integrated[kind];
@@ -112,6 +160,10 @@ engine::Shader airShader(Solver solver, EffectFlags without, bool volume, bool s
 }
 
 engine::Shader sliceShader(Solver solver, EffectFlags without, TableFormat format) {
+  if (solver == Solver::Hillaire) {
+    return format == TableFormat::Float ? ALPENGLOW_SHADER(kSkySliceHillaireFloat)
+                                        : ALPENGLOW_SHADER(kSkySliceHillaireHalf);
+  }
   const engine::Shader shaders[2][4] = {{ALPENGLOW_SHADERS(kSkySliceHalf)},
                                         {ALPENGLOW_SHADERS(kSkySliceFloat)}};
   return shaders[format == TableFormat::Float][kindOf(solver, without)];
@@ -130,10 +182,12 @@ engine::Shader surfaceShader(EffectFlags without, bool volume) {
 }
 
 engine::Shader probeShader(Solver solver, EffectFlags without) {
+  if (isModel(solver)) return modelText(solver).probe;
   const engine::Shader shaders[4] = {ALPENGLOW_SHADERS(kProbe)};
   return shaders[kindOf(solver, without)];
 }
 
+#undef ALPENGLOW_MODEL
 #undef ALPENGLOW_SHADER
 #undef ALPENGLOW_MOMENT_SHADERS
 #undef ALPENGLOW_SHADERS

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "atmosphere/bake/effect_constants.h"
+#include "atmosphere/model/solvers.h"
 #include "atmosphere/sky/shader_choice.h"
 
 namespace alpenglow {
@@ -74,7 +75,8 @@ Status View::makeSlice() {
   }
   if (tables.without != (desc_.without & kTableEffects)) return refuseEffects(tables.without);
   desc_.skySlice = nullptr;  // Only their shape counts: they may be destroyed before the view.
-  if (desc_.projection == Projection::Orthographic) return Status::Ok;  // An observer a pixel.
+  // Orthographic cameras have an observer a pixel; most of the simpler models have no slice.
+  if (desc_.projection == Projection::Orthographic || !hasSkySlice(desc_.solver)) return Status::Ok;
   return sky::SkySlice::create(resources_, tables, desc_.without, &slice_);
 }
 
@@ -184,8 +186,7 @@ Status View::checkRecord(const Tables& tables, const SkyDraw& draw, const char* 
   if (tables.desc().solver != desc_.solver) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "The tables are of Solver::%s, but ViewDesc::solver says %s.",
-                        tables.desc().solver == Solver::Moments ? "Moments" : "Standard",
-                        desc_.solver == Solver::Moments ? "Moments" : "Standard");
+                        solverEnumerator(tables.desc().solver), solverEnumerator(desc_.solver));
   }
   if (tables.desc().mie != desc_.mie) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
@@ -216,7 +217,8 @@ Status View::refuseUnsliced(const char* call) const {
 Status View::recordSlice(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw) {
   const Status status = checkRecord(tables, draw, "recordSkySlice");
   if (status != Status::Ok) return status;
-  if (slice_ == nullptr && desc_.projection == Projection::Orthographic) return Status::Ok;
+  const bool none = desc_.projection == Projection::Orthographic || !hasSkySlice(desc_.solver);
+  if (slice_ == nullptr && none) return Status::Ok;
   if (slice_ == nullptr) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "recordSkySlice got a view without a slice, but needs one made with "

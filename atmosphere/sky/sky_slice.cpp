@@ -10,7 +10,7 @@
 namespace alpenglow::sky {
 namespace {
 
-/// Push constants of sky_slice.comp; the standard solver's reads the first two.
+/// Push constants of sky_slice.comp; the standard solver's reads the first two, Hillaire's three.
 struct SliceConstants {
   float altitude, muS, horizon, span, bend;
 };
@@ -44,6 +44,7 @@ bool RecordedFor::is(const Tables& tables, const SkyDraw& draw) const {
 }
 
 VkExtent3D SkySlice::extentFor(const TableDesc& desc, EffectFlags without) {
+  if (desc.solver == Solver::Hillaire) return {192, 108, 1};  // The paper's.
   if (desc.solver != Solver::Moments) return {desc.sizes.scatteringNu, desc.sizes.scatteringMu, 1};
   VkExtent3D extent = momentSlice(desc.quality);
   if (!hasEffect(without, Effect::SpaceViews)) extent.width /= 2;
@@ -51,7 +52,8 @@ VkExtent3D SkySlice::extentFor(const TableDesc& desc, EffectFlags without) {
 }
 
 uint32_t SkySlice::countFor(const TableDesc& desc, EffectFlags without) {
-  return desc.mie == MieStorage::Full && hasEffect(without, Effect::Mie) ? 2 : 1;
+  const bool mie = desc.mie == MieStorage::Full && hasEffect(without, Effect::Mie);
+  return mie && desc.solver != Solver::Hillaire ? 2 : 1;
 }
 
 Status SkySlice::create(bake::Resources& resources, const TableDesc& tables, EffectFlags without,

@@ -61,7 +61,7 @@ class SkySlice {
   static bool possible(const Tables& tables, const SkyDraw& draw);
 
   /// What needs no phase function, or C_*; single Mie scattering without its own, or C_M; when
-  /// packed the first again, so that each binding has an image.
+  /// packed the first again, so that each binding has an image. Hillaire's has one: all light.
   const engine::Image& image() const { return images_[0]; }
   const engine::Image& mieImage() const { return images_[count_ - 1]; }
   /// Columns that sliceGrid counts, and rows.

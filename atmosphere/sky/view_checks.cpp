@@ -116,10 +116,10 @@ Status checkViewDesc(const engine::Device& device, const ViewDesc& desc) {
                        desc.viewMask);
   }
   if (desc.projection > Projection::Orthographic || desc.depth > DepthConvention::Reversed ||
-      desc.mie > MieStorage::Packed || desc.solver > Solver::Standard) {
+      desc.mie > MieStorage::Packed || desc.solver > Solver::Hillaire) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
                        "ViewDesc has projection %u, depth %u, mie %u and solver %u, but the "
-                       "greatest are 2, 1, 1 and 1.",
+                       "greatest are 2, 1, 1 and 5.",
                        static_cast<uint32_t>(desc.projection), static_cast<uint32_t>(desc.depth),
                        static_cast<uint32_t>(desc.mie), static_cast<uint32_t>(desc.solver));
   }

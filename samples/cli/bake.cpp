@@ -10,6 +10,10 @@ namespace alpenglow::cli {
 void runBake(const BakeArguments& arguments) {
   checkEnding(arguments.run.output, {".exr"});
   const io::AtmosphereSource source = take(io::findAtmosphereOrScene(arguments.atmosphere));
+  if (source.scene && io::solverOf(source.scene->model)) {
+    throw Failure("The scene's model is " + io::modelName(source.scene->model) +
+                  ", whose tables are saved to no file; render and probe bake them.");
+  }
   io::TableFile file;
   file.parameters = source.parameters;
   file.desc =

@@ -49,11 +49,12 @@ ShaftChoice chooseShafts(const RenderArguments& arguments, const io::Scene& scen
   }
   if (!scene.terrain) choice.method = SceneShafts::Off;  // Nothing casts any.
   if (solver == Solver::Moments || choice.method == SceneShafts::Off) return choice;
+  const std::string other = solver == Solver::Standard ? "standard" : "a simpler model";
   if (choice.method != SceneShafts::Auto) {
     throw Failure(std::string("The light shafts ") + nameOf(choice.method) +
-                  " need tables of the solver moments, but these are of standard.");
+                  " need tables of the solver moments, but these are of " + other + ".");
   }
-  choice.whyOff = "they need tables of the solver moments, and these are of standard.";
+  choice.whyOff = "they need tables of the solver moments, and these are of " + other + ".";
   choice.method = SceneShafts::Off;
   return choice;
 }

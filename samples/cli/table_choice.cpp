@@ -28,6 +28,26 @@ ChosenSolver chooseSolver(const TableArguments& arguments, const io::Scene* scen
   return {Solver::Moments, "the solver is moments unless --solver standard is given"};
 }
 
+// A simpler model's tables have no choices but the scene's own, and no file.
+TableDesc describeModel(const TableArguments& arguments, const io::Scene& scene) {
+  const std::string model = "the scene's model is " + io::modelName(scene.model);
+  const char* given = arguments.orders ? "--orders" : arguments.firstTableOption();
+  if (given != nullptr) {
+    throw Failure(std::string(given) + " was given, but " + model + ", which has no such choice.",
+                  Failure::kUsage);
+  }
+  if (!arguments.tables.empty()) {
+    throw Failure("--tables was given, but " + model + ", whose tables are in no file.",
+                  Failure::kUsage);
+  }
+  TableDesc desc;
+  desc.solver = *io::solverOf(scene.model);
+  desc.samples = scene.modelSamples.value_or(0);
+  return desc;
+}
+
+bool hasModel(const io::Scene* scene) { return scene != nullptr && io::solverOf(scene->model); }
+
 TableDesc describe(const TableArguments& arguments, const Parameters& parameters,
                    const io::Scene* scene, const ChosenSolver& chosen) {
   arguments.checkBelongTo(chosen.solver, chosen.why);
@@ -150,13 +170,14 @@ io::TableFile loadTableFile(const TableArguments& arguments, const Parameters& p
 
 TableDesc describeTables(const TableArguments& arguments, const Parameters& parameters,
                          const io::Scene* scene) {
+  if (hasModel(scene)) return describeModel(arguments, *scene);
   return describe(arguments, parameters, scene, chooseSolver(arguments, scene, nullptr));
 }
 
 TableRequest requestTables(const TableArguments& arguments, const Parameters& parameters,
                            const io::Scene* scene) {
   TableRequest request;
-  if (arguments.tables.empty()) {
+  if (arguments.tables.empty() || hasModel(scene)) {
     request.desc = describeTables(arguments, parameters, scene);
     return request;
   }

@@ -1,9 +1,17 @@
 // Descriptor sets and pipelines of a landscape.
 #include <alpenglow/shaders/sample_balloon.h>
+#include <alpenglow/shaders/sample_balloon_hillaire.h>
+#include <alpenglow/shaders/sample_balloon_hoffman_preetham.h>
+#include <alpenglow/shaders/sample_balloon_oneil.h>
+#include <alpenglow/shaders/sample_balloon_schafhitzel.h>
 #include <alpenglow/shaders/sample_balloon_shafts.h>
 #include <alpenglow/shaders/sample_balloon_standard.h>
 #include <alpenglow/shaders/sample_balloon_vertex.h>
 #include <alpenglow/shaders/sample_terrain.h>
+#include <alpenglow/shaders/sample_terrain_hillaire.h>
+#include <alpenglow/shaders/sample_terrain_hoffman_preetham.h>
+#include <alpenglow/shaders/sample_terrain_oneil.h>
+#include <alpenglow/shaders/sample_terrain_schafhitzel.h>
 #include <alpenglow/shaders/sample_terrain_shafts.h>
 #include <alpenglow/shaders/sample_terrain_standard.h>
 #include <alpenglow/shaders/sample_terrain_vertex.h>
@@ -68,6 +76,28 @@ void write(const Gpu& gpu, VkDescriptorSet set, VkDescriptorType type,
                                                                      &info, 0, nullptr);
 }
 
+/// A shader's text for each solver's tables.
+Code textOf(Solver solver, bool shafts, bool terrain) {
+  namespace s = alpenglow::shaders;
+  const auto pick = [&](Code ofTerrain, Code ofBalloon) { return terrain ? ofTerrain : ofBalloon; };
+  switch (solver) {
+    case Solver::Moments:
+      return shafts ? pick(s::kSampleTerrainShafts, s::kSampleBalloonShafts)
+                    : pick(s::kSampleTerrain, s::kSampleBalloon);
+    case Solver::Standard:
+      return pick(s::kSampleTerrainStandard, s::kSampleBalloonStandard);
+    case Solver::HoffmanPreetham:
+      return pick(s::kSampleTerrainHoffmanPreetham, s::kSampleBalloonHoffmanPreetham);
+    case Solver::ONeil:
+      return pick(s::kSampleTerrainOneil, s::kSampleBalloonOneil);
+    case Solver::Schafhitzel:
+      return pick(s::kSampleTerrainSchafhitzel, s::kSampleBalloonSchafhitzel);
+    case Solver::Hillaire:
+      return pick(s::kSampleTerrainHillaire, s::kSampleBalloonHillaire);
+  }
+  return {};
+}
+
 }  // namespace
 
 void Landscape::makeSets(Context* context) {
@@ -104,9 +134,7 @@ void Landscape::makePipelines(const LandscapeDesc& desc) {
     depthPipeline_ = gpu_->pipeline(pipeline);
     pipeline.writesDepth = false;
     pipeline.color = desc.colorFormat;
-    pipeline.fragment = standard             ? Code(s::kSampleTerrainStandard)
-                        : shafts_ != nullptr ? Code(s::kSampleTerrainShafts)
-                                             : Code(s::kSampleTerrain);
+    pipeline.fragment = textOf(desc.solver, shafts_ != nullptr, true);
     terrainPipeline_ = gpu_->pipeline(pipeline);
   }
   if (balloons_.empty()) return;
@@ -115,9 +143,7 @@ void Landscape::makePipelines(const LandscapeDesc& desc) {
   pipeline.attributes = {};
   pipeline.color = desc.colorFormat;
   pipeline.blends = true;
-  pipeline.fragment = standard             ? Code(s::kSampleBalloonStandard)
-                      : shafts_ != nullptr ? Code(s::kSampleBalloonShafts)
-                                           : Code(s::kSampleBalloon);
+  pipeline.fragment = textOf(desc.solver, shafts_ != nullptr, false);
   const VkBool32 packed = desc.mie == MieStorage::Packed;
   const VkSpecializationMapEntry entry = {0, 0, sizeof packed};
   const VkSpecializationInfo constants = {1, &entry, sizeof packed, &packed};

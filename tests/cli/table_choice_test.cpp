@@ -88,6 +88,19 @@ TEST_F(TableChoice, ASceneChoosesTheSolverUnlessAnOptionDoes) {
   bake(R"(, "solver": "moments", "quality": "high")", {"--solver", "standard"});
 }
 
+// The simpler models have no choices and no files, and their own answers.
+TEST_F(TableChoice, ASceneOfASimplerModelTakesNoTableOptions) {
+  const std::string model = scene(R"(, "model": "oneil", "model_samples": 5)");
+  const std::pair<const char*, const char*> options[] = {
+      {"--solver", "standard"}, {"--quality", "high"}, {"--orders", "2"},
+      {"--format", "float"},    {"--mie", "packed"},   {"--tables", "t.exr"}};
+  for (const auto& [option, value] : options)
+    expectRefused(probeOf(model, {option, value}), {option, "model is oneil"});
+  expectRefused({"bake", model, "-o", folder_ / "t.exr"}, {"model is oneil", "no file"});
+  expectGood(probeOf(model, {}));
+  expectGood({"render", model, "-o", folder_ / "a.exr"});
+}
+
 TEST_F(TableChoice, SettingsThatDoNotFitAreRefused) {
   expectRefused(
       {"bake", "earth", "-o", folder_ / "t.exr", "--moments", "sourceGamma=4096,sourcePsi=4096"},

@@ -150,6 +150,17 @@ TEST_F(Terrain, HasTablesOfTheStandardSolver) {
   expectRefused(standard({"--shafts", "exact"}), {"exact", "moments", "standard"});
 }
 
+TEST_F(Terrain, IsSeenThroughTheAirOfEverySimplerModel) {
+  for (const std::string name : {"hoffman-preetham", "oneil", "schafhitzel", "hillaire"}) {
+    const std::string ridge = scene("ridge.json", terrain() + ", \"model\": \"" + name + "\"");
+    const Outcome outcome = runProgram({"render", ridge, "-o", folder_ / "a.exr"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("a simpler model"), std::string::npos) << outcome.err;
+    EXPECT_GT(sum(picture("a.exr")), 0.0);
+    std::filesystem::remove(folder_ / "a.exr");
+  }
+}
+
 TEST_F(Terrain, BalloonsAreBlended) {
   const auto balloon = [](const char* opacity) {
     return R"(, "balloons": [{"latitude_deg": 10, "longitude_deg": 20.02, "altitude_m": 2000,

@@ -129,6 +129,38 @@ TEST(SceneFile, FeaturesOfLaterVersionsAreRefusedWithWhatExists) {
                  {"'effects.light_shafts'", "\"on\""});
 }
 
+TEST(SceneFile, ModelsHaveTheirNames) {
+  const auto read = [](const std::string& fields) {
+    return parseScene(with("size", "[3, 2], " + fields), "s.json", "");
+  };
+  const std::pair<const char*, Solver> models[] = {{"hoffman-preetham", Solver::HoffmanPreetham},
+                                                   {"oneil", Solver::ONeil},
+                                                   {"schafhitzel", Solver::Schafhitzel},
+                                                   {"hillaire", Solver::Hillaire}};
+  for (const auto& [name, solver] : models) {
+    const std::string model = std::string("\"model\": \"") + name + "\"";
+    const Result<Scene> scene = read(model);
+    ASSERT_TRUE(scene) << scene.error;
+    EXPECT_EQ(modelName(scene->model), name);
+    EXPECT_EQ(solverOf(scene->model), solver);
+    for (const char* choice : {"\"solver\": \"standard\"", "\"orders\": 3", "\"quality\": \"low\""})
+      expectMentions(read(model + ", " + choice).error, {"left out", name});
+    const bool samples = solver == Solver::ONeil || solver == Solver::Hillaire;
+    const Result<Scene> sampled = read(model + ", \"model_samples\": 7");
+    ASSERT_EQ(static_cast<bool>(sampled), samples) << sampled.error;
+    if (samples) {
+      EXPECT_EQ(sampled->modelSamples, 7u);
+    } else {
+      expectMentions(sampled.error, {"'model_samples'", name});
+    }
+  }
+  const Result<Scene> single = read("\"model\": \"single\"");
+  ASSERT_TRUE(single) << single.error;
+  EXPECT_EQ(single->orders, 1u);
+  EXPECT_FALSE(solverOf(single->model));
+  expectMentions(read("\"model\": \"single\", \"orders\": 2").error, {"'orders'", "single"});
+}
+
 TEST(SceneFile, ShaftsHaveTheirNames) {
   const auto shafts = [](const std::string& fields) {
     const Result<Scene> result = parseScene(with("size", "[3, 2], " + fields), "s.json", "");

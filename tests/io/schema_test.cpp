@@ -44,7 +44,7 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
   Json good = Json::parse(R"({ "atmosphere": "earth", "sun": { "elevation_deg": 5 },
     "camera": { "fov_deg": 50, "projection": "fisheye" }, "ground": { "albedo_map": null },
     "size": [640, 480], "exposure": 2.5, "tone_map": "linear", "model": "bruneton",
-    "solver": null, "orders": null, "quality": null, "shafts": "march", "shaft_samples": 32,
+    "model_samples": null, "solver": null, "orders": null, "quality": null, "shafts": "march", "shaft_samples": 32,
     "terrain": { "height_map": "a.png", "meters_per_pixel": [3, 4.5], "meters_per_unit": 2,
                  "height_scale": 1, "base_m": 1, "fade_m": 0, "latitude_deg": 1, "longitude_deg": 2,
                  "heading_deg": 3, "albedo": [0, 0.5, 1] },
@@ -111,6 +111,17 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
     Json without = orthographic;
     without["camera"].erase(key);
     compare(without);
+  }
+  for (const std::string& model : modelNames()) {
+    Json other = good;
+    other["model"] = model;
+    for (const char* key : {"model_samples", "solver", "orders", "quality"}) {
+      for (const Json& value : values) {
+        other[key] = value;
+        compare(other);
+      }
+      other[key] = nullptr;
+    }
   }
   for (const auto& field : good["terrain"].items()) {
     Json without = good;

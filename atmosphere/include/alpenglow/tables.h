@@ -38,6 +38,10 @@ struct TableSizes {
 };
 TableSizes defaultTableSizes();
 
+/// Where a simpler model is undefined or leaves something out: a sentence, static; "" for the
+/// solvers that have no such place.
+const char* modelLimit(Solver solver);
+
 /// Resolution of the moment solver. 0 means what momentSettings() says.
 struct MomentSettings {
   uint32_t depthMu = 0, depthH = 0;   ///< Texels of the table of optical depths.
@@ -57,6 +61,8 @@ constexpr uint32_t fieldTexels(uint32_t nodes) { return 3 * (nodes - 1) + 1; }
 
 /// Most orders of a bake: more than any air needs, few enough to number the passes.
 inline constexpr uint32_t kMaxOrders = 1000;
+/// Most of TableDesc::samples.
+inline constexpr uint32_t kMaxSamples = 1024;
 
 struct TableDesc {
   Solver solver = Solver::Moments;
@@ -84,6 +90,7 @@ MomentSettings momentSettings(const Parameters& parameters, Quality quality,
 
 /// Checks parameters and sizes, allocates, and records nothing. The tables are then Ok to bake or
 /// to upload; on a context without kCapabilityBake only to upload, and they take no scratch memory.
+/// Those of the simpler models are only baked: they have no TableId.
 /// `tables` is destroyed with destroyTables, before its context.
 Status createTables(Context* context, const Parameters& parameters, const TableDesc& desc,
                     Tables** out);
@@ -162,8 +169,9 @@ bool tablesReady(const Tables* tables);
 
 /// The descriptor set that alpenglow/atmosphere.glsl binds: 0 uniform parameters, then of the
 /// moment solver 1 optical depth, 2 moments, 3 and 4 source; of the standard one 1 T, 2 E, 3 S, 4
-/// single Mie (S again when packed). For compute and fragment stages. The images are in
-/// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL once ready. Owned by the context and the tables.
+/// single Mie (S again when packed); of the simpler models 1 T, then what docs/models.md says. For
+/// compute and fragment stages. The images are in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL once
+/// ready. Owned by the context and the tables.
 VkDescriptorSetLayout tableSetLayout(const Context* context);
 VkDescriptorSet tableSet(const Tables* tables);
 

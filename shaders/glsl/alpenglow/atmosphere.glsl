@@ -1,7 +1,8 @@
 // What a host's own shaders include to light a scene with Alpenglow's tables. Compile with the folder
 // above on the include path and bind tableSet() at set ALPENGLOW_SET (0 unless defined before). For tables
 // of Solver::Standard define ALPENGLOW_SOLVER_STANDARD, and ALPENGLOW_MIE_PACKED as true for those with
-// MieStorage::Packed (a bool, may be a specialization constant; false unless defined before).
+// MieStorage::Packed (a bool, may be a specialization constant; false unless defined before); for those of a
+// simpler model ALPENGLOW_SOLVER_HOFFMAN_PREETHAM, _ONEIL, _SCHAFHITZEL or _HILLAIRE.
 //
 // For tables made without effects (TableDesc::without) define ALPENGLOW_WITHOUT_MULTIPLE or, without Mie,
 // ALPENGLOW_WITHOUT_SOURCE: the binding of a table that isn't there must not be declared. The macros of
@@ -24,6 +25,11 @@
 #define ALPENGLOW_FINAL_READS
 #include "physics/physics.glsl"
 #include "alpenglow/standard_tables.glsl"
+#elif defined(ALPENGLOW_SOLVER_HOFFMAN_PREETHAM) || defined(ALPENGLOW_SOLVER_ONEIL) || \
+    defined(ALPENGLOW_SOLVER_SCHAFHITZEL) || defined(ALPENGLOW_SOLVER_HILLAIRE)
+#define ALPENGLOW_TABLE_READS
+#include "physics/physics.glsl"
+#include "alpenglow/model_tables.glsl"
 #else
 #include "physics/physics.glsl"
 #include "alpenglow/moment_tables.glsl"
@@ -60,16 +66,26 @@ float alpenglowInside(Ray ray, float distance_) {
 
 // Transmittance between the observer and a point of the ray.
 Spectrum alpenglowTransmittance(Ray ray, float distance_) {
-  return exp(-opticalDepthOfSegment(alpenglowMedium, ray.h, ray.mu,
-                                    alpenglowInside(ray, distance_)));
+  float inside = alpenglowInside(ray, distance_);
+#ifdef ALPENGLOW_MARCHES
+  return exp(-alpenglowMarch(ray, inside).depth);
+#else
+  return exp(-opticalDepthOfSegment(alpenglowMedium, ray.h, ray.mu, inside));
+#endif
 }
 
 // Aerial perspective: radiance scattered in the air between the observer and a point of the ray, and
 // the transmittance to dim what is there with. Use it before blending for transparent objects.
 Spectrum alpenglowRadianceToPoint(Ray ray, float distance_, out Spectrum transmittance) {
-  transmittance = alpenglowTransmittance(ray, distance_);
   float inside = alpenglowInside(ray, distance_);
+#ifdef ALPENGLOW_MARCHES
+  ModelLight march = alpenglowMarch(ray, inside);
+  transmittance = exp(-march.depth);
+  Spectrum s = march.light;
+#else
+  transmittance = alpenglowTransmittance(ray, distance_);
   Spectrum s = alpenglowLightOfSegment(ray, inside, transmittance);
+#endif
   return inside > 0.0 ? s : SPECTRUM(0.0);
 }
 

@@ -1,5 +1,7 @@
 // The tables of Solver::Moments: a part of alpenglow/atmosphere.glsl.
 
+#define ALPENGLOW_PATH_LIGHT  // single and multiple scattering of a ray apart
+
 layout(set = ALPENGLOW_SET, binding = 1) uniform sampler2D alpenglowDepthTable;
 Spectrum readDepth(vec2 uv) { return textureLod(alpenglowDepthTable, uv, 0.0).rgb; }
 #ifdef ALPENGLOW_WITHOUT_MULTIPLE

@@ -16,10 +16,10 @@ struct AirLight {
 AirLight alpenglowAirLight(AirRay air, float distance_) {
   float inside = alpenglowInside(air.ray, distance_);
   AirLight light;
-#ifdef ALPENGLOW_SOLVER_STANDARD
-  Spectrum transmittance = alpenglowTransmittance(air.ray, distance_);
-  light.single = SPECTRUM(0.0);  // the tables hold all orders in one
-  light.multiple = alpenglowLightOfSegment(air.ray, inside, transmittance);
+#ifndef ALPENGLOW_PATH_LIGHT
+  Spectrum transmittance;
+  light.single = SPECTRUM(0.0);  // all orders come in one
+  light.multiple = alpenglowRadianceToPoint(air.ray, distance_, transmittance);
   light.depth = -log(max(transmittance, SPECTRUM(1e-30)));
 #else
   PathLight path = alpenglowPathLight(air.ray, inside);
@@ -36,7 +36,7 @@ AirLight alpenglowAirLight(AirRay air, float distance_) {
   return light;
 }
 
-#ifndef ALPENGLOW_SOLVER_STANDARD
+#ifdef ALPENGLOW_PATH_LIGHT
 Spectrum alpenglowAirSingle(AirRay air, float distance_) {
   float inside = alpenglowInside(air.ray, distance_);
   PathLight light = lightOfPath(alpenglowMedium, alpenglowShape, air.ray, inside,

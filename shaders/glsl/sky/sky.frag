@@ -94,8 +94,12 @@ Spectrum groundAlbedo(Ray ray, vec3 up, float altitude, vec3 view, float muGroun
 // shadow of a caster.
 Spectrum groundTerm(Ray ray, vec3 up, float altitude, vec3 view, float sunlit) {
   float d = ray.hitsGround ? ray.extent : 0.0;
+#ifdef ALPENGLOW_MARCHES
+  Spectrum depth = alpenglowMarch(ray, d).depth;
+#else
   Spectrum depth =
       opticalDepthToGround(alpenglowMedium, ray.h, ray.mu, d, ray.hitsGround);
+#endif
   float muGround = -muAt(alpenglowMedium, ray.h, ray.mu, d, 0.0);
   float muSGround = muSAt(alpenglowMedium, ray.h, ray.muS, ray.nu, d, 0.0);
   Spectrum albedo = groundAlbedo(ray, up, altitude, view, muGround);
@@ -118,6 +122,10 @@ Spectrum sliceTerm(Ray ray, vec3 view) {
 #ifdef ALPENGLOW_SOLVER_STANDARD
   return scatteringOfRayInSlice(alpenglowMedium, alpenglowShape, ray.h, ray.mu, ray.nu,
                                 ray.hitsGround);
+#elif defined(ALPENGLOW_SOLVER_HILLAIRE)
+  vec2 angles = sliceAngles(upAltitude.xyz, sunAzimuth.xyz, view);
+  vec2 at = skyViewCoordinate(circleSlice.z, angles.x, angles.y, ray.hitsGround, kSliceColumns, kSliceRows);
+  return readSlice(at).rgb;
 #else
   SliceView slice = SliceView(circleSlice.z, circleSlice.w, sunAzimuth.w);
   vec2 angles = sliceAngles(upAltitude.xyz, sunAzimuth.xyz, view);

@@ -70,6 +70,16 @@ enum class SceneShafts : uint32_t {
   Off,
 };
 
+/// What answers for the air of a scene: docs/models.md.
+enum class SceneModel : uint32_t {
+  Bruneton,  ///< All orders, by the scene's solver.
+  Single,    ///< The same of one event.
+  HoffmanPreetham,
+  ONeil,
+  Schafhitzel,
+  Hillaire,
+};
+
 struct Scene {
   Parameters atmosphere;
   SceneSun sun;
@@ -83,9 +93,11 @@ struct Scene {
   uint32_t height = 768;
   std::optional<double> exposure;  ///< A factor; none: automatic.
   ToneMap toneMap = ToneMap::Filmic;
-  std::optional<Solver> solver;    ///< None: the default.
-  std::optional<uint32_t> orders;  ///< None: the solver's default.
-  std::optional<Quality> quality;  ///< Of Solver::Moments; none: the default.
+  SceneModel model = SceneModel::Bruneton;
+  std::optional<uint32_t> modelSamples;  ///< TableDesc::samples; None: the model's default.
+  std::optional<Solver> solver;          ///< None: the default.
+  std::optional<uint32_t> orders;        ///< None: the solver's default; 1 with SceneModel::Single.
+  std::optional<Quality> quality;        ///< Of Solver::Moments; none: the default.
 };
 
 /// Most pixels along a side of a picture.
@@ -94,6 +106,12 @@ inline constexpr uint32_t kMaxPictureSide = 16384;
 inline constexpr uint32_t kMaxShaftSamples = 4096;
 /// Most balloons of a scene.
 inline constexpr uint32_t kMaxBalloons = 1000;
+
+/// How files spell the models, in the order of their values.
+const std::vector<std::string>& modelNames();
+std::string modelName(SceneModel model);
+/// The solver of a model that is one of its own; none for Bruneton and Single.
+std::optional<Solver> solverOf(SceneModel model);
 
 /// Reads and checks everything, the atmosphere included; paths in the file are relative to it.
 Result<Scene> readScene(const std::string& path);
