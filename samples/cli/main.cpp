@@ -18,6 +18,7 @@ struct Arguments {
   std::string preset;
   BakeArguments bake;
   RenderArguments render;
+  ExplainArguments explain;
   ProbeArguments probe;
 };
 
@@ -53,6 +54,15 @@ void addRender(CLI::App* app, Arguments* arguments) {
   addTableOptions(command, kKeepOrdersHelp, &render->tables);
   addTableFileOption(command, &render->tables);
   command->callback([render] { runRender(*render); });
+}
+
+void addExplain(CLI::App* app, Arguments* arguments) {
+  ExplainArguments* explain = &arguments->explain;
+  CLI::App* command =
+      app->add_subcommand("explain", "Say what a scene's picture is made of, and why");
+  command->add_option("SCENE", explain->scene, "A sample scene's name or a scene file")->required();
+  command->add_flag("--json", explain->json, "For programs");
+  command->callback([explain] { runExplain(*explain); });
 }
 
 void addProbe(CLI::App* app, Arguments* arguments) {
@@ -106,6 +116,7 @@ int parseAndRun(int argc, char** argv) {
   addBake(&app, &arguments);
   addRender(&app, &arguments);
   addProbe(&app, &arguments);
+  addExplain(&app, &arguments);
   checkCommand(app, argc, argv);
   try {
     app.parse(argc, argv);

@@ -4,7 +4,7 @@
 
 #include <alpenglow/io/result.h>
 #include <alpenglow/io/tone_map.h>
-#include <alpenglow/view.h>
+#include <alpenglow/plan.h>
 
 #include <cstdint>
 #include <optional>
@@ -70,6 +70,16 @@ enum class SceneShafts : uint32_t {
   Off,
 };
 
+/// What a scene may ask for while it is shown: alpenglow/plan.h. Without it a scene is a still.
+struct SceneNeeds {
+  std::optional<double> altitude_m[2];    ///< Of the camera, from and to. None: its own.
+  std::optional<double> sunElevation[2];  ///< Radians. None: its own.
+  std::optional<double> exposure;         ///< The greatest. None: any.
+  double error = 0.0;                     ///< As Needs; the next as well.
+  uint64_t budgetBytes = 0;
+  double budgetSeconds = 0.0;
+};
+
 struct Scene {
   Parameters atmosphere;
   SceneSun sun;
@@ -83,9 +93,11 @@ struct Scene {
   uint32_t height = 768;
   std::optional<double> exposure;  ///< A factor; none: automatic.
   ToneMap toneMap = ToneMap::Filmic;
-  std::optional<Solver> solver;    ///< None: the default.
-  std::optional<uint32_t> orders;  ///< None: the solver's default.
-  std::optional<Quality> quality;  ///< Of Solver::Moments; none: the default.
+  std::optional<Solver> solver;      ///< None: the default.
+  std::optional<uint32_t> orders;    ///< None: the solver's default.
+  std::optional<Quality> quality;    ///< Of Solver::Moments; none: the default.
+  Force effects[kEffectCount] = {};  ///< By Effect.
+  std::optional<SceneNeeds> needs;
 };
 
 /// Most pixels along a side of a picture.
