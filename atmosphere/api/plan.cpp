@@ -17,8 +17,9 @@
 namespace alpenglow {
 namespace {
 
-/// Of lavapipe on 2 idle cores (docs/plan.md).
-constexpr double kSecondsPerUnit = 1.9e-9;
+/// Of lavapipe on 2 cores: half of the 0.97 cpu-s that earth takes at medium (docs/accuracy.md),
+/// over its 2.11e8 units.
+constexpr double kSecondsPerUnit = 2.3e-9;
 /// ShaftsDesc::sunMapSize as it is left; images of the picture's size are the host's to tell.
 constexpr uint32_t kSunMapSize = 2048;
 
