@@ -1,6 +1,7 @@
 #include "atmosphere/bake/plan.h"
 
 #include <cstdio>
+#include <string_view>
 
 namespace alpenglow::bake {
 namespace {
@@ -39,6 +40,33 @@ uint32_t SolverPlan::imageOf(TableId id) const { return find(tables, id); }
 
 uint32_t SolverPlan::imageAfter(const Pass& pass, TableId id) const {
   return find(stages[pass.stage].finishes, id);
+}
+
+uint64_t bytesOf(const PlanImage& image) {
+  const uint64_t texel = image.format == VK_FORMAT_R32G32B32A32_SFLOAT   ? 16
+                         : image.format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8
+                                                                         : 4;
+  return texel * image.extent.width * image.extent.height * image.extent.depth;
+}
+
+const char* shortName(const PlanImage& image) {
+  constexpr std::string_view kOwn = "Alpenglow ";
+  return image.name + (std::string_view(image.name).starts_with(kOwn) ? kOwn.size() : 0);
+}
+
+PlanCost costOf(const SolverPlan& plan) {
+  PlanCost cost;
+  for (const PlanImage& image : plan.images) {
+    (image.persistent ? cost.bytes : cost.bakeBytes) += bytesOf(image);
+    if (!image.persistent) continue;
+    ++cost.images;
+    cost.texels += uint64_t{image.extent.width} * image.extent.height * image.extent.depth;
+  }
+  cost.pipelines = plan.stages.size();
+  cost.dispatches = plan.passes.size();
+  for (const Pass& pass : plan.passes)
+    cost.units += plan.stages[pass.stage].unitsPerRow() * plan.stages[pass.stage].rows;
+  return cost;
 }
 
 VkFormat vulkanFormat(TableFormat format) {

@@ -3,7 +3,7 @@
 // rest of this room (table_set.h, table_record.cpp) carries any such plan out.
 #pragma once
 
-#include <alpenglow/tables.h>
+#include <alpenglow/plan.h>
 
 #include <vector>
 
@@ -85,6 +85,12 @@ struct SolverPlan {
   /// The image of a table of an order right after this pass; kNoImage when the pass finishes none.
   uint32_t imageAfter(const Pass& pass, TableId id) const;
 };
+
+/// What a plan's images and passes cost, recorded in one piece.
+PlanCost costOf(const SolverPlan& plan);
+uint64_t bytesOf(const PlanImage& image);
+/// Without the library's own name before it.
+const char* shortName(const PlanImage& image);
 
 /// Tables of single orders, which only TableDesc::keepOrders shows.
 constexpr bool isOrderTable(TableId id) { return id >= TableId::OrderMoments; }

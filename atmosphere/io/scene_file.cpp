@@ -3,6 +3,7 @@
 #include <alpenglow/io/scene_file.h>
 #include <alpenglow/io/table_file.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "atmosphere/io/atmosphere_json.h"
@@ -140,6 +141,53 @@ void readTableChoices(ObjectReader* reader, Scene* scene) {
   }
 }
 
+void readEffects(JsonErrors* errors, const Json& value, Scene* scene) {
+  ObjectReader effects(errors, value, "effects.", "",
+                       {"rayleigh", "mie", "absorption", "multiple_scattering", "ground_reflection",
+                        "ground_irradiance", "ground", "sun_disc", "aerial_perspective",
+                        "light_shafts", "space_views", "twilight", "night"});
+  for (uint32_t i = 0; i < kEffectCount; ++i) {
+    const char* name = effectName(static_cast<Effect>(i));
+    scene->effects[i] = static_cast<Force>(effects.choice(name, {"auto", "on", "off"}));
+  }
+}
+
+// [from, to], which must hold the scene's own value.
+void readRange(ObjectReader* reader, const char* key, double least, double most, double own,
+               std::optional<double> out[2]) {
+  if (!reader->has(key)) return;
+  const Json& range = reader->required(key);
+  bool good = range.is_array() && range.size() == 2;
+  for (size_t i = 0; good && i < 2; ++i) {
+    good =
+        range[i].is_number() && range[i].get<double>() >= least && range[i].get<double>() <= most;
+    if (good) out[i] = range[i].get<double>();
+  }
+  good = good && *out[0] <= own && own <= *out[1];
+  if (!good) {
+    reader->wrong(key, "[from, to] from " + showNumber(least) + " to " + showNumber(most) +
+                           ", and hold the scene's own " + showNumber(own));
+  }
+}
+
+SceneNeeds readNeeds(JsonErrors* errors, const Json& value, const Scene& scene) {
+  ObjectReader reader(
+      errors, value, "needs.", "",
+      {"altitude_m", "sun_elevation_deg", "exposure", "error", "budget_bytes", "budget_seconds"});
+  SceneNeeds needs;
+  readRange(&reader, "altitude_m", 0.0, kMaxAltitude_m, std::max(scene.camera.altitude_m, 0.0),
+            needs.altitude_m);
+  readRange(&reader, "sun_elevation_deg", -90.0, 90.0, shortestDegrees(scene.sun.elevation),
+            needs.sunElevation);
+  for (std::optional<double>& angle : needs.sunElevation)
+    if (angle) angle = radians(*angle);
+  if (reader.has("exposure")) needs.exposure = reader.number("exposure", 1e-12, 1e12);
+  needs.error = reader.numberOr("error", 0.0, 1e-4, 1.0);
+  needs.budgetBytes = static_cast<uint64_t>(reader.numberOr("budget_bytes", 0.0, 1.0, 1e15));
+  needs.budgetSeconds = reader.numberOr("budget_seconds", 0.0, 1e-6, 1e9);
+  return needs;
+}
+
 void readShafts(JsonErrors* errors, ObjectReader* reader, Scene* scene) {
   scene->shafts = static_cast<SceneShafts>(
       reader->choice("shafts", {"auto", "paper", "exact", "march", "off"}));
@@ -147,8 +195,9 @@ void readShafts(JsonErrors* errors, ObjectReader* reader, Scene* scene) {
     scene->shaftSamples = reader->integer("shaft_samples", 1, kMaxShaftSamples);
   }
   if (reader->has("effects")) {
-    ObjectReader effects(errors, reader->required("effects"), "effects.", "", {"light_shafts"});
-    if (effects.choice("light_shafts", {"auto", "off"}) == 1) scene->shafts = SceneShafts::Off;
+    readEffects(errors, reader->required("effects"), scene);
+    const Force shafts = scene->effects[static_cast<uint32_t>(Effect::LightShafts)];
+    if (shafts == Force::Off) scene->shafts = SceneShafts::Off;
   }
 }
 
@@ -156,7 +205,7 @@ Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& fo
   ObjectReader reader(errors, value, "", "",
                       {"atmosphere", "sun", "camera", "ground", "terrain", "balloons", "size",
                        "exposure", "tone_map", "model", "model_samples", "solver", "orders",
-                       "quality", "shafts", "shaft_samples", "effects"});
+                       "quality", "shafts", "shaft_samples", "effects", "needs"});
   Scene scene;
   const Json& atmosphere = reader.required("atmosphere");
   const Json& sun = reader.required("sun");
@@ -185,6 +234,7 @@ Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& fo
   readTableChoices(&reader, &scene);
   readModel(errors, &reader, &scene);
   readShafts(errors, &reader, &scene);
+  if (reader.given("needs")) scene.needs = readNeeds(errors, reader.required("needs"), scene);
   return scene;
 }
 

@@ -53,6 +53,11 @@ struct RenderArguments {
   RunArguments run;
 };
 
+struct ExplainArguments {
+  std::string scene;
+  bool json = false;
+};
+
 struct ProbeArguments {
   std::string atmosphere;
   std::string queries;

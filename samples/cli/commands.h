@@ -9,6 +9,7 @@ namespace alpenglow::cli {
 void runPresets(const std::string& name);
 void runBake(const BakeArguments& arguments);
 void runRender(const RenderArguments& arguments);
+void runExplain(const ExplainArguments& arguments);
 void runProbe(const ProbeArguments& arguments);
 /// Where the program was built with Alpenglow::cost.
 void runCost(const CostArguments& arguments);

@@ -18,6 +18,7 @@ struct Arguments {
   std::string preset;
   BakeArguments bake;
   RenderArguments render;
+  ExplainArguments explain;
   ProbeArguments probe;
   CostArguments cost;
 };
@@ -54,6 +55,15 @@ void addRender(CLI::App* app, Arguments* arguments) {
   addTableOptions(command, kKeepOrdersHelp, &render->tables);
   addTableFileOption(command, &render->tables);
   command->callback([render] { runRender(*render); });
+}
+
+void addExplain(CLI::App* app, Arguments* arguments) {
+  ExplainArguments* explain = &arguments->explain;
+  CLI::App* command =
+      app->add_subcommand("explain", "Say what a scene's picture is made of, and why");
+  command->add_option("SCENE", explain->scene, "A sample scene's name or a scene file")->required();
+  command->add_flag("--json", explain->json, "For programs");
+  command->callback([explain] { runExplain(*explain); });
 }
 
 void addProbe(CLI::App* app, Arguments* arguments) {
@@ -122,6 +132,7 @@ int parseAndRun(int argc, char** argv) {
   addBake(&app, &arguments);
   addRender(&app, &arguments);
   addProbe(&app, &arguments);
+  addExplain(&app, &arguments);
 #ifdef ALPENGLOW_WITH_COST
   addCost(&app, &arguments);
 #endif

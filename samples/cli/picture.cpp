@@ -1,6 +1,6 @@
 #include "picture.h"
 
-#include <cstring>
+#include "scene_plan.h"
 
 namespace alpenglow::cli {
 namespace {
@@ -10,19 +10,6 @@ struct ViewDeleter {
   void operator()(View* view) const { destroyView(view, session->device().frame()); }
 };
 using ViewPointer = std::unique_ptr<View, ViewDeleter>;
-
-SkyDraw describeDraw(const io::Scene& scene) {
-  const io::SceneCamera& c = scene.camera;
-  SkyDraw draw;
-  draw.camera = cameraFromGeodetic(scene.atmosphere, c.latitude, c.longitude, c.altitude_m,
-                                   c.heading, c.pitch, c.roll, c.fov);
-  draw.camera.height_m = c.orthographicHeight_m.value_or(0.0);
-  sunDirection(c.latitude, c.longitude, scene.sun.elevation, scene.sun.azimuth, draw.sun.direction);
-  draw.sun.irradiance = scene.atmosphere.solarIrradiance;
-  draw.sun.discRadius = scene.sun.discRadius;
-  draw.viewport = {{0, 0}, {scene.width, scene.height}};
-  return draw;
-}
 
 void recordPicture(Session* session, VkCommandBuffer commands, const headless::Image& target,
                    View* view, const Tables* tables, const SkyDraw& draw) {
@@ -38,15 +25,16 @@ void recordPicture(Session* session, VkCommandBuffer commands, const headless::I
 }  // namespace
 
 io::LinearImage drawScene(Session* session, const io::Scene& scene, const io::AlbedoMap* albedo,
-                          const ReadyTables& ready, const PictureTarget& target, Scenery* scenery) {
+                          const ReadyTables& ready, const Plan& plan, const PictureTarget& target,
+                          Scenery* scenery) {
   const samples::Gpu gpu = session->gpu();
   const samples::Owned<VkSampler> sampler = gpu.sampler(VK_SAMPLER_ADDRESS_MODE_REPEAT);
   headless::Image albedoImage;
   ViewDesc desc;
   desc.colorFormat = kPictureFormat;
   desc.projection = samples::projectionOf(scene.camera);
-  desc.solver = ready.desc.solver;
-  desc.mie = ready.desc.mie;
+  describeView(plan, &desc);
+  // Where a slice can't be recorded, recordSky reads the tables.
   desc.skySlice = ready.tables.get();
   if (albedo != nullptr) {
     albedoImage = gpu.texture(*albedo);

@@ -6,6 +6,7 @@
 #include "outputs.h"
 #include "picture.h"
 #include "sample_scenes.h"
+#include "scene_plan.h"
 #include "tables.h"
 
 namespace alpenglow::cli {
@@ -20,6 +21,32 @@ void writePicture(const std::string& path, const io::Scene& scene, const io::Lin
   check(io::writePng(path, io::toneMapped(image, exposure, scene.toneMap)));
 }
 
+std::optional<ShaftsDesc> shaftsOf(const ShaftChoice& choice, const Session& session,
+                                   const Plan& plan) {
+  std::optional<ShaftsDesc> desc = describeShafts(choice, session);
+  if (desc) desc->without = plan.viewWithout;
+  return desc;
+}
+
+// What the options and the scene leave open is planned; a table file is what it is.
+Plan planPicture(const RenderArguments& arguments, io::Scene scene, const ShaftChoice& shafts,
+                 TableRequest* request) {
+  scene.shafts = shafts.method;  // Options beat the scene.
+  if (request->file) {
+    Needs needs = needsOf(scene);
+    for (uint32_t i = 0; i < kEffectCount; ++i) {
+      const auto effect = static_cast<Effect>(i);
+      if ((kTableEffects & effectBit(effect)) == 0) continue;
+      needs.effects[i] = hasEffect(request->desc.without, effect) ? Force::On : Force::Off;
+    }
+    return planNeeds(scene, needs, request->desc);
+  }
+  const TableDesc base = describeBase(arguments.tables, scene);
+  const Plan plan = planScene(scene, base);
+  request->desc = plan.tableDesc;
+  return plan;
+}
+
 }  // namespace
 
 void runRender(const RenderArguments& arguments) {
@@ -31,21 +58,26 @@ void runRender(const RenderArguments& arguments) {
   std::optional<io::AlbedoMap> albedo;
   if (!scene.albedoMap.empty()) albedo = take(io::readAlbedoMap(scene.albedoMap));
   TableRequest request = requestTables(arguments.tables, scene.atmosphere, &scene);
-  const ShaftChoice shafts = chooseShafts(arguments, scene, request.desc.solver);
+  ShaftChoice shafts = chooseShafts(arguments, scene, request.desc.solver);
+  const Plan plan = planPicture(arguments, scene, shafts, &request);
+  if (!plan.shafts) shafts.method = io::SceneShafts::Off;
+  const bool disc = plan.effects[static_cast<uint32_t>(Effect::SunDisc)].on;
+  if (!disc) scene.sun.discRadius = 0.0;
   const SceneryFiles files = readScenery(scene);
   checkOutputs(arguments.run);
 
   // Loaded tables need nothing of a bake.
   const CapabilityFlags bake = request.file ? CapabilityFlags{0} : kCapabilityBake;
   Session session(arguments.run.device,
-                  bake | kCapabilitySky | sceneryNeeds(scene) | shafts.needs(), shafts.wishes());
+                  bake | (plan.capabilities & (kCapabilitySky | kCapabilityAir)) | shafts.needs(),
+                  shafts.wishes());
   const PictureTarget target = createPictureTarget(&session, scene.width, scene.height);
   std::optional<Scenery> scenery;
   if (scene.terrain || !scene.balloons.empty()) {
-    scenery.emplace(&session, scene, files, request.desc, describeShafts(shafts, session));
+    scenery.emplace(&session, scene, files, request.desc, shaftsOf(shafts, session, plan), plan);
   }
   const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
-  const io::LinearImage image = drawScene(&session, scene, albedo ? &*albedo : nullptr, ready,
+  const io::LinearImage image = drawScene(&session, scene, albedo ? &*albedo : nullptr, ready, plan,
                                           target, scenery ? &*scenery : nullptr);
   writePicture(output, scene, image);
   if (!arguments.run.report.empty()) {

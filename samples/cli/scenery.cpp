@@ -28,10 +28,6 @@ void checkScenery(const io::Scene& scene) {
                 "orthographic pictures.");
 }
 
-CapabilityFlags sceneryNeeds(const io::Scene& scene) {
-  return scene.terrain ? kCapabilityAir : CapabilityFlags{0};
-}
-
 SceneryFiles readScenery(const io::Scene& scene) {
   SceneryFiles files;
   if (!scene.terrain) return files;
@@ -43,12 +39,18 @@ SceneryFiles readScenery(const io::Scene& scene) {
 }
 
 Scenery::Scenery(Session* session, const io::Scene& scene, const SceneryFiles& files,
-                 const TableDesc& tables, const std::optional<ShaftsDesc>& shafts)
+                 const TableDesc& tables, const std::optional<ShaftsDesc>& shafts, const Plan& plan)
     : session_(session),
       gpu_(session->gpu()),
+      hasAir_(plan.sceneDepth),
       landscape_(&gpu_, scene, files.mesh ? &*files.mesh : nullptr,
                  files.albedo ? &*files.albedo : nullptr,
                  describeLandscape(session, scene, tables, shafts)) {}
+
+void Scenery::describe(ViewDesc* view) const {
+  landscape_.describe(view);
+  if (!hasAir_) view->sceneDepth = {};
+}
 
 void Scenery::drawShafts(View* view, const Tables* tables, const SkyDraw& draw) {
   const Casters casters = landscape_.casters();
@@ -93,9 +95,10 @@ void Scenery::draw(View* view, const Tables* tables, SkyDraw draw, const headles
     if (landscape_.shafts() != nullptr) drawShafts(view, tables, draw);
     drawInto(target, draw, "terrain", true,
              [&](VkCommandBuffer commands) { landscape_.recordTerrain(commands, tables, draw); });
-    drawInto(target, draw, "air", false, [&](VkCommandBuffer commands) {
-      session_->check(recordAir(view, commands, session_->device().frame(), tables, draw));
-    });
+    if (hasAir_)
+      drawInto(target, draw, "air", false, [&](VkCommandBuffer commands) {
+        session_->check(recordAir(view, commands, session_->device().frame(), tables, draw));
+      });
   }
   drawInto(target, draw, "sky", !terrain, [&](VkCommandBuffer commands) {
     session_->check(recordSky(view, commands, session_->device().frame(), tables, draw));

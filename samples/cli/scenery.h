@@ -1,6 +1,8 @@
 // What a scene has besides the sky: terrain, its light shafts, balloons.
 #pragma once
 
+#include <alpenglow/plan.h>
+
 #include <optional>
 
 #include "picture_target.h"
@@ -11,9 +13,6 @@ namespace alpenglow::cli {
 
 /// Throws a Failure for a scene that can't be drawn.
 void checkScenery(const io::Scene& scene);
-
-/// Capabilities without which the scene can't be drawn, those of shafts aside.
-CapabilityFlags sceneryNeeds(const io::Scene& scene);
 
 /// Read before there is a device. Throws.
 struct SceneryFiles {
@@ -27,9 +26,10 @@ SceneryFiles readScenery(const io::Scene& scene);
 class Scenery {
  public:
   Scenery(Session* session, const io::Scene& scene, const SceneryFiles& files,
-          const TableDesc& tables, const std::optional<ShaftsDesc>& shafts);
+          const TableDesc& tables, const std::optional<ShaftsDesc>& shafts, const Plan& plan);
 
-  void describe(ViewDesc* view) const { landscape_.describe(view); }
+  /// Without aerial perspective there is no depth image for the view to read.
+  void describe(ViewDesc* view) const;
 
   /// Draws everything, the sky too, a pass at a time, into a target in any layout; leaves it in
   /// kCopySource.
@@ -42,6 +42,7 @@ class Scenery {
 
   Session* session_;
   samples::Gpu gpu_;
+  bool hasAir_;
   samples::Landscape landscape_;
 };
 

@@ -48,8 +48,9 @@ TableDesc describeModel(const TableArguments& arguments, const io::Scene& scene)
 
 bool hasModel(const io::Scene* scene) { return scene != nullptr && io::solverOf(scene->model); }
 
-TableDesc describe(const TableArguments& arguments, const Parameters& parameters,
-                   const io::Scene* scene, const ChosenSolver& chosen) {
+// What options and scene say; the rest is left open.
+TableDesc describeGiven(const TableArguments& arguments, const io::Scene* scene,
+                        const ChosenSolver& chosen) {
   arguments.checkBelongTo(chosen.solver, chosen.why);
   TableDesc desc;
   desc.solver = chosen.solver;
@@ -72,7 +73,12 @@ TableDesc describe(const TableArguments& arguments, const Parameters& parameters
   }
   if (arguments.sizeIrradiance) io::parseIrradianceSize(*arguments.sizeIrradiance, &desc.sizes);
   if (arguments.sizeScattering) io::parseScatteringSize(*arguments.sizeScattering, &desc.sizes);
-  desc = io::resolved(desc, parameters);
+  return desc;
+}
+
+TableDesc describe(const TableArguments& arguments, const Parameters& parameters,
+                   const io::Scene* scene, const ChosenSolver& chosen) {
+  const TableDesc desc = io::resolved(describeGiven(arguments, scene, chosen), parameters);
   check(io::checkSizes(desc));
   return desc;
 }
@@ -167,6 +173,11 @@ io::TableFile loadTableFile(const TableArguments& arguments, const Parameters& p
 }
 
 }  // namespace
+
+TableDesc describeBase(const TableArguments& arguments, const io::Scene& scene) {
+  if (hasModel(&scene)) return describeModel(arguments, scene);
+  return describeGiven(arguments, &scene, chooseSolver(arguments, &scene, nullptr));
+}
 
 TableDesc describeTables(const TableArguments& arguments, const Parameters& parameters,
                          const io::Scene* scene) {

@@ -14,6 +14,9 @@ namespace alpenglow::cli {
 TableDesc describeTables(const TableArguments& arguments, const Parameters& parameters,
                          const io::Scene* scene);
 
+/// What options and scene give of a description, and nothing else: for planScene.
+TableDesc describeBase(const TableArguments& arguments, const io::Scene& scene);
+
 /// Bakes in slices with a progress bar. With `kept`, desc.keepOrders must be set; each order's
 /// tables are appended to it.
 TablesPointer bakeTables(Session* session, const Parameters& parameters, const TableDesc& desc,

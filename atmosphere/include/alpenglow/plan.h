@@ -108,6 +108,10 @@ struct Plan {
 Status makePlan(const Parameters& parameters, const Needs& needs, const TableDesc& base, Plan* out,
                 char* message, size_t messageSize);
 
+/// What a draw may see of sky, ground, space and the sun's disc: conservative, as recordSky finds
+/// it. Terrain is the host's to add.
+SeenFlags seenBy(const Parameters& parameters, Projection projection, const SkyDraw& draw);
+
 /// Fills what a plan decides of a view: solver, mie, without, alwaysSliced. The host adds its
 /// formats, skySlice if Plan::skySlice, sceneDepth and shafts.
 void describeView(const Plan& plan, ViewDesc* view);

@@ -4,7 +4,7 @@
 
 #include <alpenglow/io/result.h>
 #include <alpenglow/io/tone_map.h>
-#include <alpenglow/view.h>
+#include <alpenglow/plan.h>
 
 #include <cstdint>
 #include <optional>
@@ -80,6 +80,16 @@ enum class SceneModel : uint32_t {
   Hillaire,
 };
 
+/// What a scene may ask for while it is shown: alpenglow/plan.h. Without it a scene is a still.
+struct SceneNeeds {
+  std::optional<double> altitude_m[2];    ///< Of the camera, from and to. None: its own.
+  std::optional<double> sunElevation[2];  ///< Radians. None: its own.
+  std::optional<double> exposure;         ///< The greatest. None: any.
+  double error = 0.0;                     ///< As Needs; the next as well.
+  uint64_t budgetBytes = 0;
+  double budgetSeconds = 0.0;
+};
+
 struct Scene {
   Parameters atmosphere;
   SceneSun sun;
@@ -98,6 +108,8 @@ struct Scene {
   std::optional<Solver> solver;          ///< None: the default.
   std::optional<uint32_t> orders;        ///< None: the solver's default; 1 with SceneModel::Single.
   std::optional<Quality> quality;        ///< Of Solver::Moments; none: the default.
+  Force effects[kEffectCount] = {};      ///< By Effect.
+  std::optional<SceneNeeds> needs;
 };
 
 /// Most pixels along a side of a picture.

@@ -1,0 +1,243 @@
+// Quality level and orders from the wanted error, by what was measured; the other choices in words.
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "atmosphere/plan/rules.h"
+
+namespace alpenglow::plan {
+namespace {
+
+constexpr uint32_t kLevels = 5, kBands = 5;
+constexpr const char* kNames[kLevels] = {"draft", "low", "medium", "high", "ultra"};
+
+/// 95th percentiles by level and band (day, low, civil, nautical, astronomical), per cent:
+/// docs/accuracy.md. A level is credited with no less than a finer one has.
+struct Measured {
+  const char* air;
+  double percent[kLevels][kBands];
+};
+constexpr Measured kClear = {"clear air",
+                             {{0.78, 2.35, 3.36, 4.58, 5.91},
+                              {0.41, 0.98, 1.50, 3.54, 5.09},
+                              {0.30, 0.38, 0.79, 2.35, 3.88},
+                              {0.24, 0.25, 0.57, 1.95, 3.88},
+                              {0.24, 0.23, 0.57, 1.41, 3.88}}};
+/// The worse of earth-hazy and mars.
+constexpr Measured kHazy = {"haze",
+                            {{1.26, 2.53, 6.25, 5.06, 11.04},
+                             {0.82, 1.68, 4.68, 4.92, 11.04},
+                             {0.51, 1.29, 4.17, 4.92, 11.04},
+                             {0.41, 1.11, 3.95, 4.92, 10.61},
+                             {0.41, 1.11, 3.89, 4.92, 10.55}}};
+/// haze85.
+constexpr Measured kNarrow = {"haze of g up to 0.88",
+                              {{1.85, 3.36, 8.23, 5.18, 8.89},
+                               {0.96, 2.16, 8.23, 4.92, 7.03},
+                               {0.64, 1.44, 3.01, 4.92, 4.73},
+                               {0.49, 0.93, 2.80, 4.33, 4.55},
+                               {0.49, 0.75, 1.98, 4.33, 4.30}}};
+/// Airs of which only medium was measured (haze93; thick5 and mie-only), or none like it: haze85's
+/// times the worst ratio of these to it, band by band.
+constexpr double kUnknown[kBands] = {3.7, 3.2, 2.1, 2.3, 2.4};
+/// The sky slice's own share (docs/stability.md).
+constexpr double kSlice[kLevels] = {0.64, 0.27, 0.09, 0.09, 0.09};
+
+struct Band {
+  double from, to;  ///< Degrees of elevation.
+};
+constexpr Band kBandEnds[kBands] = {{10, 91}, {0, 10}, {-6, 0}, {-12, -6}, {-18, -12}};
+
+uint32_t indexOf(Quality quality) { return static_cast<uint32_t>(levelOf(quality)) - 1; }
+
+struct Class {
+  const Measured* measured;
+  bool known;
+};
+
+Class classOf(const Parameters& parameters) {
+  const Air air = airOf(parameters);
+  const bool molecules = parameters.rayleigh.present;
+  if (!molecules || air.scattering > 4.0 || air.peakAsymmetry > 0.88) return {&kNarrow, false};
+  if (air.peakAsymmetry > 0.80) return {&kNarrow, true};
+  if (air.scattering > 0.35 || !air.likeEarth) return {&kHazy, true};
+  return {&kClear, true};
+}
+
+double errorOf(const Parameters& parameters, const Plan& plan, uint32_t level) {
+  const Class air = classOf(parameters);
+  const SunRange suns = widened(parameters, plan.needs);
+  // What can't be seen has no error.
+  const double from = plan.effects[static_cast<uint32_t>(Effect::Twilight)].on ||
+                              plan.effects[static_cast<uint32_t>(Effect::Night)].on
+                          ? suns.from
+                          : std::max(suns.from, std::min(0.0, suns.to));
+  double worst = 0.0;
+  for (uint32_t band = 0; band < kBands; ++band) {
+    const Band& ends = kBandEnds[band];
+    const bool last = band + 1 == kBands;
+    const bool reached = suns.to >= ends.from * kDegree && from < ends.to * kDegree;
+    const bool darker = last && suns.to < ends.from * kDegree;
+    if (!reached && !darker) continue;
+    const double factor = air.known ? 1.0 : kUnknown[band];
+    worst = std::max(worst, air.measured->percent[level][band] * factor);
+  }
+  return (worst + (plan.skySlice ? kSlice[level] : 0.0)) / 100.0;
+}
+
+double percent(double share) { return std::round(share * 1e4) / 100.0; }
+double degrees(double radians) { return std::round(radians / kDegree * 100.0) / 100.0; }
+
+void describeSuns(const TableDesc& base, Plan* plan) {
+  const TableDesc& desc = plan->tableDesc;
+  model::Sentence value, why;
+  const bool any = desc.sunZenithFrom == 0.0 && desc.sunZenithTo == 0.0;
+  if (any) {
+    value << "any";
+    why << (desc.solver == Solver::Moments
+                ? "The sun's range, widened to the horizon's, leaves nothing out."
+                : "Only tables of the solver moments can be made for some suns.");
+  } else {
+    value << degrees(desc.sunZenithFrom) << " to " << degrees(desc.sunZenithTo)
+          << " degrees from the zenith";
+    if (base.sunZenithFrom != 0.0 || base.sunZenithTo != 0.0) {
+      why << "Given by the host.";
+    } else {
+      why << "The sun stays from " << degrees(plan->needs.sunElevationFrom) << " to "
+          << degrees(plan->needs.sunElevationTo)
+          << " degrees high, and places in view have it up to the horizon's arc off.";
+    }
+  }
+  addChoice(plan, "sun_zenith", value, why);
+}
+
+void describeDepths(const TableDesc& base, Plan* plan) {
+  const MomentSettings& settings = plan->tableDesc.moments;
+  if (settings.depthMu == base.moments.depthMu && settings.depthH == base.moments.depthH) return;
+  model::Sentence value, why;
+  value << settings.depthMu << " x " << settings.depthH;
+  why << "Beside tables for few suns that of optical depths is the largest, and so many texels "
+         "cost no accuracy that shows.";
+  addChoice(plan, "optical_depths", value, why);
+}
+
+void describeAltitude(const Parameters& parameters, Plan* plan) {
+  model::Sentence value, why;
+  value << "0 to " << parameters.topRadius_m - parameters.bottomRadius_m << " m";
+  why << "Light on a ray comes from air of every height, so tables hold all of it.";
+  addChoice(plan, "altitude", value, why);
+}
+
+void describeOrders(const TableDesc& base, uint32_t solved, Plan* plan) {
+  model::Sentence value, why;
+  const bool multiple =
+      plan->effects[static_cast<uint32_t>(Effect::MultipleScattering)].on || base.orders > 1;
+  if (base.solver != Solver::Moments && base.solver != Solver::Standard) return;
+  if (base.orders != 0) {
+    value << base.orders;
+    why << "Given by the host.";
+  } else if (!multiple && base.solver == Solver::Moments) {
+    value << 1u;
+    why << "Multiple scattering is off.";
+  } else if (base.solver == Solver::Standard) {
+    value << solved;
+    why << "The default of the solver standard.";
+  } else {
+    value << "all";
+    why << "In air of this depth " << solved
+        << " orders are solved one by one; what follows is a geometric series.";
+  }
+  addChoice(plan, "orders", value, why);
+}
+
+void describeSlice(Plan* plan) {
+  model::Sentence value, why;
+  value << (plan->skySlice ? "on" : "off");
+  if (plan->skySlice) {
+    why << "A frame has more pixels than the slice has rays, so light is looked up in it.";
+  } else if (plan->needs.projection == Projection::Orthographic) {
+    why << "Each ray of an orthographic camera has an observer of its own.";
+  } else {
+    why << "This solver makes no slice for cameras above the air.";
+  }
+  addChoice(plan, "sky_slice", value, why);
+}
+
+void describeShafts(Plan* plan) {
+  if (!plan->shafts) return;
+  model::Sentence value, why;
+  constexpr const char* kMethods[] = {"exact", "paper", "march"};
+  value << kMethods[static_cast<uint32_t>(plan->shaftMethod)];
+  why << "Exact shafts take any casters and no samples along a ray.";
+  addChoice(plan, "shafts", value, why);
+}
+
+void describeQuality(const Parameters& parameters, const TableDesc& base, Quality unbound,
+                     Plan* plan) {
+  if (base.solver != Solver::Moments) return;
+  const Class air = classOf(parameters);
+  const Quality level = levelOf(plan->tableDesc.quality);
+  const double wanted = percent(wantedError(plan->needs));
+  model::Sentence value, why;
+  value << levelName(level);
+  if (base.quality != Quality::Default) {
+    why << "Given by the host";
+  } else if (levelOf(unbound) != level) {
+    why << "The budget lowers it from " << levelName(unbound);
+  } else if (plan->errorMet) {
+    why << "The lowest level that meets " << wanted << " %";
+  } else {
+    why << "No level up to it meets " << wanted << " %";
+  }
+  why << ": in " << air.measured->air << " its error under these suns is "
+      << (air.known ? "up to " : "estimated as ") << percent(plan->expectedError) << " %.";
+  addChoice(plan, "quality", value, why);
+}
+
+}  // namespace
+
+Quality levelOf(Quality quality) { return quality == Quality::Default ? Quality::Medium : quality; }
+
+const char* levelName(Quality quality) { return kNames[indexOf(quality)]; }
+
+void setQuality(const Parameters& parameters, Quality quality, Plan* plan) {
+  plan->tableDesc.quality = quality;
+  plan->expectedError = errorOf(parameters, *plan, indexOf(quality));
+  plan->errorMet = plan->expectedError <= wantedError(plan->needs);
+}
+
+void decideQuality(const Parameters& parameters, const TableDesc& base, Plan* plan) {
+  if (base.solver != Solver::Moments) return;
+  if (base.quality != Quality::Default) return setQuality(parameters, base.quality, plan);
+  // Who names no error gets at most the default level.
+  const Quality finest = plan->needs.error > 0.0 ? Quality::Ultra : Quality::Medium;
+  for (Quality level = Quality::Draft; level <= finest;
+       level = static_cast<Quality>(static_cast<uint32_t>(level) + 1)) {
+    setQuality(parameters, level, plan);
+    if (plan->errorMet) return;
+  }
+}
+
+void fitDepths(const TableDesc& base, Plan* plan) {
+  constexpr double kFewSuns = 20.0 * kDegree;
+  TableDesc& desc = plan->tableDesc;
+  const bool few = desc.sunZenithTo > 0.0 && desc.sunZenithTo - desc.sunZenithFrom <= kFewSuns;
+  const bool fine = levelOf(desc.quality) >= Quality::Medium;
+  if (base.solver != Solver::Moments || !few || !fine) return;
+  if (base.moments.depthMu == 0) desc.moments.depthMu = kFewDepthMu;
+  if (base.moments.depthH == 0) desc.moments.depthH = kFewDepthH;
+}
+
+void describeChoices(const Parameters& parameters, const TableDesc& base, uint32_t solvedOrders,
+                     Quality unbound, Plan* plan) {
+  plan->choiceCount = 0;
+  describeSuns(base, plan);
+  describeDepths(base, plan);
+  describeAltitude(parameters, plan);
+  describeQuality(parameters, base, unbound, plan);
+  describeOrders(base, solvedOrders, plan);
+  describeSlice(plan);
+  describeShafts(plan);
+}
+
+}  // namespace alpenglow::plan

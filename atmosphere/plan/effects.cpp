@@ -1,0 +1,315 @@
+// Which effects are simulated, and why.
+#include <algorithm>
+#include <cmath>
+
+#include "atmosphere/plan/rules.h"
+
+namespace alpenglow::plan {
+namespace {
+
+constexpr double degrees(double radians) { return std::round(radians / kDegree * 100.0) / 100.0; }
+double percent(double share) { return std::round(share * 1e4) / 100.0; }
+
+class Decider {
+ public:
+  Decider(const Parameters& parameters, const TableDesc& base, Plan* plan)
+      : p_(parameters),
+        base_(base),
+        plan_(plan),
+        needs_(plan->needs),
+        air_(airOf(parameters)),
+        error_(wantedError(plan->needs)),
+        range_(widened(parameters, plan->needs)) {}
+
+  void decide() {
+    matter(Effect::Rayleigh, p_.rayleigh.present, air_.rayleighShare, "molecules");
+    matter(Effect::Mie, p_.mie.present, air_.mieShare, "aerosols");
+    matter(Effect::Absorption, p_.absorption.present, air_.absorptionShare, "absorbing layer");
+    multiple();
+    reflection();
+    irradiance();
+    seen();
+    shafts();
+    space();
+    twilight();
+    night();
+  }
+
+ private:
+  EffectChoice& at(Effect effect) { return plan_->effects[static_cast<uint32_t>(effect)]; }
+  bool on(Effect effect) { return at(effect).on; }
+
+  // What the host decides beats what is found here.
+  void set(Effect effect, bool on, const model::Sentence& reason) {
+    EffectChoice& choice = at(effect);
+    const Force force = needs_.effects[static_cast<uint32_t>(effect)];
+    model::Sentence why;
+    const bool table = (kTableEffects & effectBit(effect)) != 0;
+    choice = {};
+    if (force != Force::Auto) {
+      choice.on = force == Force::On;
+      choice.forced = true;
+      why << "Turned " << (choice.on ? "on" : "off") << " by the scene.";
+    } else if (table && !hasEffect(base_.without, effect)) {
+      choice.forced = true;
+      why << "The given description of the tables is without it.";
+    } else if (table && base_.solver != Solver::Moments) {
+      choice.on = true;
+      why << "Only tables of the solver moments can be without it.";
+    } else {
+      choice.on = on;
+      why = reason;
+    }
+    copyReason(why, &choice);
+  }
+
+  // Whatever the host says, it can't be.
+  void impossible(Effect effect, const char* reason) {
+    model::Sentence why;
+    why << reason;
+    at(effect) = {};
+    copyReason(why, &at(effect));
+  }
+
+  void matter(Effect effect, bool present, double share, const char* what) {
+    model::Sentence why;
+    const bool counts = present && share > error_;
+    if (!present || share <= 0.0) {
+      why << "The atmosphere has no " << what << ".";
+    } else if (counts) {
+      why << "The " << what << " may change light by up to " << percent(share)
+          << " %, more than the wanted " << percent(error_) << " %.";
+    } else {
+      why << "The " << what << " change light by at most " << percent(share)
+          << " %, within the wanted " << percent(error_) << " %.";
+    }
+    set(effect, counts, why);
+  }
+
+  // Of light of two events against that of one: the second event meets light from all around, of
+  // ways as long as the logarithm of the longest; in twilight it comes where the first can't.
+  void multiple() {
+    model::Sentence why;
+    const double ways = 1.0 + std::log1p(air_.longest / std::max(air_.scattering, 1e-12));
+    const double share = 2.0 * air_.scattering * ways * (range_.from < 0.0 ? 10.0 : 1.0) +
+                         (reflects() ? 2.0 * air_.albedo : 0.0);
+    const bool one = base_.orders == 1;
+    const bool counts = !one && (share > error_ || base_.orders > 1);
+    if (one) {
+      why << "One order was asked for.";
+    } else if (base_.orders > 1) {
+      why << "Paths of up to " << base_.orders << " events were asked for.";
+    } else {
+      why << "Paths of two events and more may add "
+          << (counts && share > 1.0 ? "as much light as those of one" : "up to ");
+      if (!(counts && share > 1.0)) why << percent(share) << " %";
+      why << ", " << (counts ? "more than" : "within") << " the wanted " << percent(error_)
+          << " %.";
+    }
+    set(Effect::MultipleScattering, counts, why);
+  }
+
+  double reflected() const {
+    return 2.0 * air_.albedo * std::min(1.0, std::max(std::sin(range_.to), 0.0) + 0.3);
+  }
+  bool reflects() const { return reflected() > error_; }
+
+  void reflection() {
+    if (base_.solver == Solver::Moments && !on(Effect::MultipleScattering)) {
+      impossible(Effect::GroundReflection,
+                 "Light from the ground into the air is of two events, which are left out.");
+      return;
+    }
+    model::Sentence why;
+    why << "The ground's albedo of up to " << air_.albedo << " gives the air at most "
+        << percent(reflected()) << " % of its light, " << (reflects() ? "more than" : "within")
+        << " the wanted " << percent(error_) << " %.";
+    set(Effect::GroundReflection, reflects(), why);
+  }
+
+  void irradiance() {
+    if (base_.solver == Solver::Moments && !on(Effect::MultipleScattering)) {
+      impossible(Effect::GroundIrradiance,
+                 "Light of the sky on surfaces is of two events, which are left out.");
+      return;
+    }
+    const bool ground = sees(needs_, kSeenGround), terrain = sees(needs_, kSeenTerrain);
+    model::Sentence why;
+    if (ground || terrain) {
+      why << (ground ? "The ground" : "The scene's terrain")
+          << " may be in view, and the sky lights it.";
+    } else {
+      why << "Neither ground nor terrain comes into view.";
+    }
+    set(Effect::GroundIrradiance, ground || terrain, why);
+  }
+
+  void seen() {
+    model::Sentence ground, disc, air;
+    ground << "The ground " << (sees(needs_, kSeenGround) ? "may come" : "doesn't come")
+           << " into view.";
+    set(Effect::Ground, sees(needs_, kSeenGround), ground);
+    if (needs_.projection == Projection::Orthographic && !on(Effect::Ground)) {
+      model::Sentence why;
+      why << "Rays of an orthographic camera may end on the ground.";
+      at(Effect::Ground) = {};
+      at(Effect::Ground).on = true;
+      copyReason(why, &at(Effect::Ground));
+    }
+    const bool drawn = needs_.sunDiscRadius > 0.0 && sees(needs_, kSeenSun);
+    if (needs_.sunDiscRadius <= 0.0) {
+      disc << "The sun is drawn without a disc.";
+    } else if (drawn) {
+      disc << "A disc of " << degrees(needs_.sunDiscRadius) << " degrees may come into view.";
+    } else {
+      disc << "The sun doesn't come into view.";
+    }
+    set(Effect::SunDisc, drawn, disc);
+    if (needs_.projection == Projection::Fisheye) {
+      impossible(Effect::AerialPerspective,
+                 "A fisheye view has no depth image: a host's scene is drawn as triangles.");
+      return;
+    }
+    air << (sees(needs_, kSeenTerrain) ? "The host's scene may stand in the air in view."
+                                       : "No scene of the host's comes into view.");
+    set(Effect::AerialPerspective, sees(needs_, kSeenTerrain), air);
+  }
+
+  void shafts() {
+    if (base_.solver != Solver::Moments) {
+      impossible(Effect::LightShafts, "Light shafts need tables of the solver moments.");
+      return;
+    }
+    if (!on(Effect::AerialPerspective)) {
+      impossible(Effect::LightShafts,
+                 "Shadows in the air fall from a scene of the host's, and none is in view.");
+      return;
+    }
+    const double lowest = -air_.dipOfTop - kDegree;
+    const bool lit = range_.to > lowest;
+    model::Sentence why;
+    if (!needs_.occluders) {
+      why << "Nothing casts shadows.";
+    } else if (lit) {
+      why << "Casters stand in air that the sun lights from up to " << degrees(range_.to)
+          << " degrees.";
+    } else {
+      why << "The sun stays below " << degrees(lowest)
+          << " degrees: the planet's own shadow covers all casters.";
+    }
+    set(Effect::LightShafts, needs_.occluders && lit, why);
+  }
+
+  void space() {
+    const bool high = mayBeInSpace(air_, needs_);
+    if (needs_.projection == Projection::Orthographic && !high) {
+      model::Sentence why;
+      why << "Rays of an orthographic camera may begin above the air.";
+      at(Effect::SpaceViews) = {};
+      at(Effect::SpaceViews).on = true;
+      copyReason(why, &at(Effect::SpaceViews));
+      return;
+    }
+    model::Sentence why;
+    if (needs_.altitudeTo_m == 0.0) {
+      why << "The camera's altitude has no limit; the air ends at " << air_.thickness_m << " m.";
+    } else {
+      why << "The camera stays between " << needs_.altitudeFrom_m << " and " << needs_.altitudeTo_m
+          << " m" << (high ? ", and the air ends at " : ", below the top of the air at ")
+          << air_.thickness_m << " m.";
+    }
+    set(Effect::SpaceViews, high, why);
+  }
+
+  // The lowest sun whose light is seen: only where the table of brightness holds, low in the air.
+  double visible() const {
+    const bool low = needs_.altitudeTo_m > 0.0 && needs_.altitudeTo_m <= 3000.0;
+    const double brightest =
+        *std::max_element(p_.solarIrradiance.value, p_.solarIrradiance.value + kSpectrumSize);
+    return low ? lowestVisibleSun(air_, brightest, needs_.exposureTo) : lowestSun();
+  }
+
+  void dark(Effect effect, double above, const char* called, bool reaches) {
+    const double lowest = visible();
+    model::Sentence why;
+    const bool hidden = reaches && lowest >= above;
+    why << "The sun, from " << degrees(range_.from) << " to " << degrees(range_.to)
+        << " degrees high over all places in view, ";
+    if (hidden) {
+      why << "gives less than half an 8-bit step at exposure " << needs_.exposureTo << " below "
+          << degrees(lowest) << ".";
+    } else {
+      why << (reaches ? "reaches " : "never reaches ") << called << ".";
+    }
+    set(effect, reaches && !hidden, why);
+  }
+
+  void twilight() {
+    dark(Effect::Twilight, 0.0, "twilight, below 0",
+         range_.from < 0.0 && range_.to >= -18.0 * kDegree);
+  }
+  void night() {
+    dark(Effect::Night, -18.0 * kDegree, "night, below -18", range_.from < -18.0 * kDegree);
+  }
+
+  const Parameters& p_;
+  const TableDesc& base_;
+  Plan* plan_;
+  const Needs& needs_;
+  Air air_;
+  double error_;
+  SunRange range_;
+};
+
+// Suns of the tables: those of the needs, less what can't be seen, and more where an effect is on
+// all the same.
+SunRange tableSuns(const Parameters& parameters, const Plan& plan) {
+  const SunRange all = widened(parameters, plan.needs);
+  double from = all.from;
+  const auto& twilight = plan.effects[static_cast<uint32_t>(Effect::Twilight)];
+  const auto& night = plan.effects[static_cast<uint32_t>(Effect::Night)];
+  constexpr double kNight = -18.0 * kDegree;
+  if (!night.on) from = std::max(from, kNight);
+  if (!twilight.on && !night.on) from = std::max(from, 0.0);
+  if (twilight.on && all.from >= 0.0) from = kNight;
+  if (night.on && all.from >= kNight) from = lowestSun();
+  return {std::min(from, all.to), all.to};
+}
+
+}  // namespace
+
+void decideEffects(const Parameters& parameters, const TableDesc& base, Plan* plan) {
+  Decider(parameters, base, plan).decide();
+}
+
+void applyEffects(const Parameters& parameters, const TableDesc& base, Plan* plan) {
+  const auto on = [plan](Effect effect) { return plan->effects[static_cast<uint32_t>(effect)].on; };
+  TableDesc& desc = plan->tableDesc;
+  EffectFlags without = 0;
+  for (uint32_t i = 0; i < kEffectCount; ++i)
+    if (!plan->effects[i].on) without |= effectBit(static_cast<Effect>(i));
+  const bool moments = desc.solver == Solver::Moments;
+  desc.without = moments ? without & kTableEffects : base.without;
+  plan->viewWithout = (without & kViewEffects) | desc.without;
+  if (moments && base.sunZenithFrom == 0.0 && base.sunZenithTo == 0.0) {
+    constexpr double kRightAngle = 90.0 * kDegree;
+    const SunRange suns = tableSuns(parameters, *plan);
+    const bool any = suns.from <= -kRightAngle && suns.to >= kRightAngle;
+    desc.sunZenithFrom = any ? 0.0 : std::max(kRightAngle - suns.to, 0.0);
+    // Both zero would be any sun.
+    desc.sunZenithTo = any ? 0.0 : std::clamp(kRightAngle - suns.from, 1e-6, 2.0 * kRightAngle);
+  }
+  const bool slices = desc.solver == Solver::Standard || desc.solver == Solver::Hillaire;
+  plan->skySlice = plan->needs.projection != Projection::Orthographic &&
+                   (moments || (slices && !on(Effect::SpaceViews)));
+  plan->sceneDepth = on(Effect::AerialPerspective);
+  plan->shafts = on(Effect::LightShafts);
+  plan->capabilities = kCapabilityBake | kCapabilitySky;
+  if (plan->sceneDepth) plan->capabilities |= kCapabilityAir;
+  if (plan->shafts) {
+    plan->capabilities |= kCapabilityShafts;
+    if (plan->shaftMethod == ShaftMethod::Paper) plan->capabilities |= kCapabilityShadowVolumes;
+  }
+}
+
+}  // namespace alpenglow::plan
