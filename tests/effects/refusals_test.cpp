@@ -49,11 +49,20 @@ class EffectRefusalsTest : public ShaftTest {
     return desc;
   }
 
+  /// Of a host's depth, whose own view is as small as may be.
+  static ShaftSetup sceneSetup() {
+    ShaftSetup setup;
+    setup.shafts = setup.sliced = false;
+    setup.without = kViewEffects;
+    return setup;
+  }
+  const ShaftSetup scene_ = sceneSetup();
+
   /// With the depth of a scene, for recordAir and shafts.
   ViewDesc sceneDesc(EffectFlags effects) {
     ViewDesc desc = without(effects);
     desc.depth = DepthConvention::Reversed;
-    desc.sceneDepth = rigOf({}, kExtent).scene;
+    desc.sceneDepth = rigOf(scene_, kExtent).scene;
     return desc;
   }
 };
@@ -178,7 +187,7 @@ TEST_F(EffectRefusalsTest, DescriptionsThatMakeNoSense) {
 
 TEST_F(EffectRefusalsTest, ShaftsAreWithoutWhatTheirViewIs) {
   ShaftsDesc desc;
-  desc.sceneDepth = rigOf({}, kExtent).scene;
+  desc.sceneDepth = rigOf(scene_, kExtent).scene;
   desc.depth = DepthConvention::Reversed;
   desc.sunMapSize = 64;
   desc.without = kViewEffects;

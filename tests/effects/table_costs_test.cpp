@@ -28,15 +28,13 @@ constexpr uint64_t kTexel = 16, kScalar = 4;
 constexpr uint64_t kNodesR = kTinySettings.nodesR, kNodesMuS = kTinySettings.nodesMuS,
                    kNodes = kNodesR * kNodesMuS, kModes = kTinySettings.degree + 1,
                    kHarmonics = kModes * (kModes + 1) / 2,
-                   kRings = kTinySettings.ringsSky + kTinySettings.ringsLimb +
-                            kTinySettings.ringsGround;
+                   kRings =
+                       kTinySettings.ringsSky + kTinySettings.ringsLimb + kTinySettings.ringsGround;
 
 uint64_t sourceBytes() {
   return bytesOf(kTinySettings.sourceGamma * kTinySettings.sourcePsi, kNodesMuS, kNodesR, kTexel);
 }
-uint64_t singleBytes() {
-  return bytesOf(2 * kRings * kTinySettings.azimuths, kNodes, 1, kTexel);
-}
+uint64_t singleBytes() { return bytesOf(2 * kRings * kTinySettings.azimuths, kNodes, 1, kTexel); }
 uint64_t legendreBytes(uint64_t rows) { return bytesOf(kHarmonics, rows, 1, kScalar); }
 /// The table of moments, and that of an order between the nodes, of so many layers.
 uint64_t fieldBytes(uint64_t layers) {

@@ -80,10 +80,8 @@ Constants constantsOf(EffectFlags without, bool first = false) {
 Words specialized(const Words& text, const Constants& constants, bool clean = true) {
   spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_2);
   std::string said;
-  optimizer.SetMessageConsumer(
-      [&](spv_message_level_t, const char*, const spv_position_t&, const char* message) {
-        said = message;
-      });
+  optimizer.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&,
+                                   const char* message) { said = message; });
   optimizer.RegisterPass(spvtools::CreateSetSpecConstantDefaultValuePass(constants))
       .RegisterPass(spvtools::CreateFreezeSpecConstantValuePass())
       .RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass());
@@ -211,7 +209,8 @@ TEST(EffectText, TablesThatAreNotThereAreNotDeclared) {
     EXPECT_LT(single, whole) << shaderOf(EffectFlags{0}).name;
   };
   compare([&](EffectFlags without) { return sky::skyShader(Solver::Moments, without, plain); });
-  compare([&](EffectFlags without) { return sky::airShader(Solver::Moments, without, false, false); });
+  compare(
+      [&](EffectFlags without) { return sky::airShader(Solver::Moments, without, false, false); });
   compare([&](EffectFlags without) {
     return sky::sliceShader(Solver::Moments, without, TableFormat::Float);
   });
@@ -219,7 +218,8 @@ TEST(EffectText, TablesThatAreNotThereAreNotDeclared) {
   compare([&](EffectFlags without) { return sky::probeShader(Solver::Moments, without); });
   // The surface between light and shadow sums single scattering alone.
   EXPECT_LT(size(sky::surfaceShader(kMie, false), kMie), size(sky::surfaceShader(0, false), 0));
-  EXPECT_LT(size(ALPENGLOW_TEXT(kMomentLightMolecules), kMie), size(ALPENGLOW_TEXT(kMomentLight), 0));
+  EXPECT_LT(size(ALPENGLOW_TEXT(kMomentLightMolecules), kMie),
+            size(ALPENGLOW_TEXT(kMomentLight), 0));
   EXPECT_LT(size(ALPENGLOW_TEXT(kMomentSingleMolecules), kMie),
             size(ALPENGLOW_TEXT(kMomentSingle), 0));
 }

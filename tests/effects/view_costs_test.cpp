@@ -14,7 +14,9 @@ constexpr EffectFlags kMie = effectBit(Effect::Mie),
 constexpr VkExtent2D kExtent = {24, 16};
 
 /// An image of a draft's sky slice, and one of an air volume.
-constexpr uint64_t kSlice = uint64_t{48} * 64 * 16, kVolume = uint64_t{11010048};
+constexpr uint64_t kSlice = uint64_t{48} * 64 * 16;
+constexpr uint64_t kVolume =
+    uint64_t{physics_f32::kAirColumns} * physics_f32::kAirRows * physics_f32::kAirDistances * 16;
 
 /// What making a view adds.
 struct Added {
@@ -62,6 +64,15 @@ class ViewCostsTest : public ShaftTest {
     destroyContext(own);
   }
 
+  /// Of a host's depth, whose own view is as small as may be.
+  static ShaftSetup sceneSetup() {
+    ShaftSetup setup;
+    setup.shafts = setup.sliced = false;
+    setup.without = kViewEffects;
+    return setup;
+  }
+  const ShaftSetup scene_ = sceneSetup();
+
   ViewDesc without(EffectFlags effects, bool always) {
     ViewDesc desc = viewDesc();
     desc.without = effects;
@@ -98,7 +109,7 @@ TEST_F(ViewCostsTest, PixelsThatAViewNeverDrawsHaveNoPipeline) {
 TEST_F(ViewCostsTest, WithoutSpaceSlicesAndVolumesAreHalfAsLarge) {
   expectAdded(without(kSpace, true), true, {5, 2, kSlice});
   ViewDesc air = without(kViewEffects, true);
-  air.sceneDepth = rigOf({}, kExtent).scene;
+  air.sceneDepth = rigOf(scene_, kExtent).scene;
   expectAdded(air, true, {4, 5, kSlice + 3 * kVolume / 2});
 }
 
@@ -109,7 +120,7 @@ TEST_F(ViewCostsTest, WhatTablesAreWithoutASliceIsWithout) {
 
 // With a slice: the volume's three images, what fills it, what looks light up, what integrates.
 TEST_F(ViewCostsTest, AirInFrontOfASceneOwnsItsVolume) {
-  const SceneDepth scene = rigOf({}, kExtent).scene;
+  const SceneDepth scene = rigOf(scene_, kExtent).scene;
   ViewDesc desc = without(kGround | kDisc, false);
   desc.sceneDepth = scene;
   expectAdded(desc, false, {2 + 1, 0, 0});
@@ -120,33 +131,67 @@ TEST_F(ViewCostsTest, AirInFrontOfASceneOwnsItsVolume) {
   expectAdded(desc, true, {3, 2, 2 * kSlice});
 }
 
+// The map from the sun, blocks, the surface with and without a volume; map and sums; their frame
+// and blocks.
+TEST_F(ViewCostsTest, ShaftsAreAnObjectOfTheirOwn) {
+  ContextDesc plain = contextDesc();
+  plain.capabilities = kCapabilitySky | kCapabilityAir | kCapabilityShafts;
+  Context* own = nullptr;
+  ASSERT_EQ(createContext(plain, &own), Status::Ok) << lastDiagnostic();
+  ShaftsDesc desc;
+  desc.sceneDepth = rigOf(scene_, kExtent).scene;
+  desc.sunMapSize = 64;
+  desc.without = kViewEffects;
+  const ResourceReport start = reportOf(own);
+  Shafts* shafts = nullptr;
+  ASSERT_EQ(createShafts(own, desc, &shafts), Status::Ok) << lastDiagnostic();
+  const ResourceReport made = reportOf(own);
+  EXPECT_EQ(made.pipelines - start.pipelines, 4u);
+  EXPECT_EQ(made.shaderVariants - start.shaderVariants, 4u);
+  EXPECT_EQ(made.images - start.images, 2u);
+  EXPECT_EQ(made.buffers - start.buffers, 2u);
+  EXPECT_GE(made.bytes - start.bytes, 64u * 64 * 4 + 24u * 16 * 16);
+  ViewDesc view = without(kViewEffects, false);
+  view.sceneDepth = desc.sceneDepth;
+  view.shafts = shafts;
+  View* shaded = nullptr;
+  ASSERT_EQ(createView(own, view, &shaded), Status::Ok) << lastDiagnostic();
+  const ResourceReport seen = reportOf(own);
+  EXPECT_EQ(seen.pipelines - made.pipelines, 2u) << "Sky and air.";
+  EXPECT_EQ(seen.images, made.images);
+  EXPECT_EQ(seen.bytes, made.bytes);
+  destroyView(shaded, FrameInfo{});
+  destroyShafts(shafts, FrameInfo{});
+  EXPECT_EQ(reportOf(own).images, start.images);
+  EXPECT_EQ(reportOf(own).bytes, start.bytes);
+  destroyContext(own);
+}
+
 TEST_F(ViewCostsTest, AFrameRecordsNothingOfWhatIsOff) {
   addCaster(
       reference::test::box(reference::Vector(600, 1500, -200), reference::Vector(900, 1800, 200)));
-  const SkyDraw looking = drawFrom({50, 0, 0}, 90, 40, 40, kExtent, 35, 200);
+  const SkyDraw looking = drawFrom({50, 0, 0}, 90, 50, 40, kExtent, 35, 200);
   ShaftSetup shaded, plain;
+  shaded.sunMapSize = plain.sunMapSize = 64;
+  shaded.without = plain.without = kViewEffects;
   plain.shafts = false;
-  // The host's depth, sky, slice and volume, air; the map from the sun, blocks and surface.
   rigOf(plain, kExtent);
-  const ResourceReport before = reportOf(context());
   rigOf(shaded, kExtent);
-  const ResourceReport after = reportOf(context());
-  std::cout << after.pipelines - before.pipelines << " " << after.images - before.images << " " << after.buffers - before.buffers << "\n";
-  const ResourceReport withShafts = frame([&] { draw(shaded, looking); });
-  const ResourceReport withAir = frame([&] { draw(plain, looking); });
   ViewDesc desc = without(kViewEffects, true);
   desc.skySlice = baked;
   View* const skyAlone = makeView(desc);
+  const ResourceReport withShafts = frame([&] { draw(shaded, looking); });
+  const ResourceReport withAir = frame([&] { draw(plain, looking); });
   const ResourceReport sky = frame([&] {
     recordSlice(skyAlone, baked, looking);
     picture(skyAlone, baked, looking);
   });
   EXPECT_EQ(sky.dispatches, 1u);
   EXPECT_EQ(sky.draws, 1u);
-  EXPECT_EQ(withAir.dispatches - sky.dispatches, 1u);
-  EXPECT_EQ(withAir.draws - sky.draws, 1u);
-  EXPECT_EQ(withShafts.dispatches - withAir.dispatches, 1u);
-  EXPECT_EQ(withShafts.draws - withAir.draws, 2u);
+  EXPECT_EQ(withAir.dispatches - sky.dispatches, 1u) << "The volume.";
+  EXPECT_EQ(withAir.draws - sky.draws, 1u) << "The air.";
+  EXPECT_EQ(withShafts.dispatches - withAir.dispatches, 1u) << "Blocks.";
+  EXPECT_EQ(withShafts.draws - withAir.draws, 2u) << "Map and surface.";
 }
 
 }  // namespace
