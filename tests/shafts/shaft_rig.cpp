@@ -36,7 +36,7 @@ bool ShaftRig::serves(const ShaftSetup& s, VkExtent2D size) const {
   const bool samePicture = size.width == scene.extent.width && size.height == scene.extent.height &&
                            s.depth == setup.depth && s.projection == setup.projection &&
                            s.sliced == setup.sliced && s.depthFormat == setup.depthFormat &&
-                           s.shafts == setup.shafts;
+                           s.shafts == setup.shafts && s.without == setup.without;
   return samePicture &&
          (!s.shafts || (s.method == setup.method && s.sunMapSize == setup.sunMapSize &&
                         s.reliefSize == setup.reliefSize && s.samples == setup.samples &&
@@ -97,6 +97,7 @@ void ShaftRig::makeView(Context* context, const Tables* slice) {
   desc.closed = setup.closed;
   desc.reliefSize = setup.reliefSize;
   desc.multipleLoss = setup.multipleLoss;
+  desc.without = setup.without;
   if (setup.shafts) {
     EXPECT_EQ(createShafts(context, desc, &shafts), Status::Ok);
   }
@@ -106,6 +107,7 @@ void ShaftRig::makeView(Context* context, const Tables* slice) {
   viewDesc.depth = setup.depth;
   viewDesc.projection = setup.projection;
   viewDesc.sceneDepth = scene;
+  viewDesc.without = setup.without;
   viewDesc.shafts = shafts;
   sliced = setup.sliced && setup.projection != Projection::Orthographic;
   if (sliced) viewDesc.skySlice = slice;

@@ -22,10 +22,11 @@ struct ShaftSetup {
   uint32_t reliefSize = 0;
   uint32_t samples = 0;
   double multipleLoss = -1.0;
-  bool hostDepth = true;  ///< The casters are drawn into the depth image too.
-  bool closed = false;    ///< The casters are.
-  bool shafts = true;     ///< Else aerial perspective alone.
-  uint32_t passes = 1;    ///< Drawn so often; the last is timed.
+  bool hostDepth = true;    ///< The casters are drawn into the depth image too.
+  bool closed = false;      ///< The casters are.
+  EffectFlags without = 0;  ///< Of view and shafts.
+  bool shafts = true;       ///< Else aerial perspective alone.
+  uint32_t passes = 1;      ///< Drawn so often; the last is timed.
 };
 
 /// Push constants of host_depth.vert.

@@ -1,0 +1,112 @@
+// What the CPU answers from copies of tables without effects is what the device answers.
+#include <alpenglow/query.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "tests/sky/sky_fixture.h"
+
+namespace alpenglow::testing {
+namespace {
+
+constexpr EffectFlags kMie = effectBit(Effect::Mie),
+                      kMultiple = effectBit(Effect::MultipleScattering),
+                      kReflection = effectBit(Effect::GroundReflection),
+                      kIrradiance = effectBit(Effect::GroundIrradiance);
+
+/// Below a starlit night.
+constexpr double kFloor = 1e-9;
+
+class EffectQueryTest : public SkyTest {
+ protected:
+  /// Empty for a table that there isn't.
+  std::vector<uint8_t> read(Tables* tables, TableId id) {
+    TableInfo info;
+    if (tableInfo(tables, id, &info) != Status::Ok) return {};
+    std::string error;
+    const headless::HostBuffer buffer =
+        device().createHostBuffer(info.bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, &error);
+    run([&](VkCommandBuffer commands) {
+      return recordTableReadback(tables, commands, id, buffer.buffer(), 0) == Status::Ok;
+    });
+    const auto* bytes = static_cast<const uint8_t*>(buffer.data());
+    return {bytes, bytes + info.bytes};
+  }
+
+  /// From the ground to space, by day and twilight; every fifth an irradiance.
+  static std::vector<ProbeQuery> queries() {
+    std::vector<ProbeQuery> result;
+    for (const double altitude : {0.0, 1500.0, 2e5}) {
+      for (const double sun : {20.0, 75.0, 93.0}) {
+        for (const double view : {10.0, 85.0, 100.0, 150.0, -1.0}) {
+          ProbeQuery query;
+          query.altitude_m = altitude;
+          query.irradiance = view < 0.0;
+          query.viewZenith = radians(std::max(view, 0.0));
+          query.sunZenith = radians(sun);
+          query.azimuth = radians(35.0);
+          result.push_back(query);
+        }
+      }
+    }
+    return result;
+  }
+
+  static void expectSame(const Spectrum& device, const Spectrum& cpu, double* most) {
+    for (uint32_t c = 0; c < kSpectrumSize; ++c) {
+      *most = std::max(*most, std::abs(cpu[c] - device[c]) / std::max(device[c], kFloor));
+    }
+  }
+};
+
+TEST_F(EffectQueryTest, TheCpuAnswersWhatTheDeviceAnswers) {
+  const std::vector<ProbeQuery> asked = queries();
+  const auto count = static_cast<uint32_t>(asked.size());
+  for (const EffectFlags without : {kMie, kMultiple, kMie | kMultiple, kIrradiance,
+                                    kIrradiance | kReflection, kTableEffects & ~kMultiple}) {
+    TableDesc desc;
+    desc.quality = Quality::Draft;
+    desc.without = without;
+    // Something must be there to scatter.
+    if ((without & effectBit(Effect::Rayleigh)) != 0) desc.without &= ~effectBit(Effect::Rayleigh);
+    Tables* tables = nullptr;
+    ASSERT_EQ(createTables(context(), preset("earth"), desc, &tables), Status::Ok) << message();
+    bakeAll(device(), tables);
+    const std::vector<uint8_t> depths = read(tables, TableId::OpticalDepth),
+                               moments = read(tables, TableId::Moments),
+                               source = read(tables, TableId::Source);
+    const auto given = [](const std::vector<uint8_t>& copy) {
+      return copy.empty() ? nullptr : copy.data();
+    };
+    const bool multiple = hasEffect(without, Effect::MultipleScattering);
+    EXPECT_NE(given(depths), nullptr);
+    EXPECT_EQ(given(moments) != nullptr, multiple) << without;
+    EXPECT_EQ(given(source) != nullptr, multiple && hasEffect(without, Effect::Mie)) << without;
+    const std::vector<ProbeAnswer> device = probeAll(asked, tables);
+    std::vector<ProbeAnswer> cpu(asked.size());
+    ASSERT_EQ(answerQueries(tables, {given(depths), given(moments), given(source)}, asked.data(),
+                            count, cpu.data()),
+              Status::Ok)
+        << message();
+    double most = 0.0, light = 0.0, sky = 0.0;
+    for (size_t i = 0; i < asked.size(); ++i) {
+      ASSERT_EQ(cpu[i].hitsGround, device[i].hitsGround) << i;
+      light = std::max(light, device[i].skyRadiance[1]);
+      sky = std::max(sky, device[i].sky[1]);
+      expectSame(device[i].transmittance, cpu[i].transmittance, &most);
+      expectSame(device[i].skyRadiance, cpu[i].skyRadiance, &most);
+      expectSame(device[i].groundRadiance, cpu[i].groundRadiance, &most);
+      expectSame(device[i].direct, cpu[i].direct, &most);
+      expectSame(device[i].sky, cpu[i].sky, &most);
+    }
+    std::printf("without 0x%02x: %.1e\n", desc.without, most);
+    EXPECT_LT(most, 5e-5) << without;
+    EXPECT_GT(light, 0.0) << without;
+    // E of the sky is there if it was baked.
+    EXPECT_EQ(sky > 0.0, multiple && hasEffect(without, Effect::GroundIrradiance)) << without;
+    destroyTables(tables, FrameInfo{});
+  }
+}
+
+}  // namespace
+}  // namespace alpenglow::testing
