@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-/// Rays of one submission lie side by side in the target's first row.
+constexpr CapabilityFlags kWanted = kCapabilityBake | kCapabilitySky;
+/// Of a submission, in work units.
 constexpr uint64_t kSliceBudget = 50'000'000;
 
 void keep(void* user, const Diagnostic& diagnostic) {
@@ -23,19 +24,13 @@ void keep(void* user, const Diagnostic& diagnostic) {
 Bench::Bench(const std::string& device, VkExtent2D frame) {
   headless::DeviceOptions options;
   options.select = device;
-  const CapabilityFlags wanted = kCapabilityBake | kCapabilitySky;
-  options.requirements = [wanted](PFN_vkGetInstanceProcAddr getProcAddr, VkInstance instance,
-                                  VkPhysicalDevice physical, Requirements* out,
-                                  std::string* missing) {
-    return queryRequirements(getProcAddr, instance, physical, wanted, out, keep, missing);
+  options.requirements = [](PFN_vkGetInstanceProcAddr getProcAddr, VkInstance instance,
+                            VkPhysicalDevice physical, Requirements* out, std::string* missing) {
+    return queryRequirements(getProcAddr, instance, physical, kWanted, out, keep, missing);
   };
   device_ = headless::Device::create(options, &error_);
   if (!device_) throw Failure(error_);
-  ContextDesc desc = device_->contextDesc();
-  desc.capabilities = wanted;
-  desc.diagnostic = keep;
-  desc.user = &error_;
-  if (createContext(desc, &context_) != Status::Ok) throw Failure(error_);
+  renew();
   target_ = device_->createImage(
       frame, kFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 1,
       &error_);
@@ -47,6 +42,16 @@ Bench::Bench(const std::string& device, VkExtent2D frame) {
 }
 
 Bench::~Bench() { destroyContext(context_); }
+
+void Bench::renew() {
+  destroyContext(context_);
+  context_ = nullptr;
+  ContextDesc desc = device_->contextDesc();
+  desc.capabilities = kWanted;
+  desc.diagnostic = keep;
+  desc.user = &error_;
+  if (createContext(desc, &context_) != Status::Ok) throw Failure(error_);
+}
 
 void Bench::describeDriver() {
   VkPhysicalDeviceDriverProperties driver = {};

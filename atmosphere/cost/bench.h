@@ -56,7 +56,11 @@ class Bench {
   /// Null, with the library's sentence in refusal(), for what this version can't bake.
   TablesPointer bake(const Parameters& parameters, const TableDesc& desc, double* seconds);
   const std::string& refusal() const { return error_; }
+  /// Of the context that is in use.
   ResourceReport resources();
+  /// A context of its own for what comes next, so that it is accounted alone. No tables or views of
+  /// the last one may be left.
+  void renew();
 
   /// A view, in a rendering scope of the target's format. Throws.
   ViewPointer view(const Drawn& drawn);

@@ -198,7 +198,7 @@ class List {
     TableDesc day = moments();
     day.sunZenithFrom = 0.01;
     day.sunZenithTo = 80.0 * std::numbers::pi / 180.0;
-    add("domain", "day alone", "moments", day, "suns above 10 degrees");
+    add("domain", "day alone", "moments", day, "suns above 10 degrees").bands = 1;
   }
 
   std::vector<Configuration> take() { return std::move(list_); }

@@ -18,6 +18,7 @@ struct Configuration {
   Storage storage = Storage::AsDesc;
   /// Rays and views under this sun alone, at ground level: a domain that is a part of all. 0: all.
   double onlySun_deg = 0.0;
+  uint32_t bands = 5;  ///< That the tables are for: the first.
 };
 
 /// The full list, or a shorter one. Names are unique in their sweep.

@@ -98,7 +98,6 @@ class Sweep {
 
 TablesPointer Sweep::bakeTimed(const Configuration& configuration, Row* row) {
   const Parameters& parameters = all_.set.parameters;
-  const uint64_t before = bench_.resources().bytes;
   double seconds = 0.0;
   // The first compiles the shaders; a frame's buffers of it are gone before the next.
   TablesPointer tables = bench_.bake(parameters, configuration.desc, &seconds);
@@ -119,8 +118,6 @@ TablesPointer Sweep::bakeTimed(const Configuration& configuration, Row* row) {
     times.push_back(seconds);
   }
   row->bake_s = timingOf(times);
-  const ResourceReport after = bench_.resources();
-  row->bytes = after.bytes - before;
   return tables;
 }
 
@@ -165,6 +162,7 @@ Row Sweep::measure(const Configuration& configuration) {
   row.name = configuration.name;
   row.family = configuration.family;
   row.detail = configuration.detail;
+  bench_.renew();
   const Truth& truth = configuration.onlySun_deg != 0.0 ? evening_ : all_;
   TablesPointer tables = bakeTimed(configuration, &row);
   if (tables == nullptr) return row;
@@ -178,17 +176,20 @@ Row Sweep::measure(const Configuration& configuration) {
     const ViewPointer view = bench_.view(drawn);
     row.errors =
         errorsOf(truth, bench_.radiance(view.get(), drawn, truth.set.parameters, truth.rays));
+    // Tables for some suns say nothing of others.
+    for (uint32_t band = configuration.bands; band < kBandCount; ++band) row.errors[band] = {};
   }
   drawn.viewWithout = configuration.viewWithout;
-  const uint64_t before = bench_.resources().bytes;
   const ViewPointer view = bench_.view(drawn);
-  row.bytes += bench_.resources().bytes - before;
   timeFrames(view.get(), drawn, configuration, &row);
-  row.peakBytes = std::max(row.bytes, bench_.resources().peakBytes);
+  // Whatever was needed once has been freed with its frame.
+  row.bytes = bench_.resources().bytes;
+  row.peakBytes = bench_.resources().peakBytes;
   return row;
 }
 
 io::LinearImage Sweep::picture(const Configuration& model, const Look& look) {
+  bench_.renew();
   double seconds = 0.0;
   const TablesPointer tables = bench_.bake(all_.set.parameters, model.desc, &seconds);
   if (tables == nullptr) throw Failure(bench_.refusal());

@@ -64,7 +64,7 @@ std::string timeCell(const Timing& t, const char* how) {
 
 /// Of the ground views: their mean, and the widest spread of one of them.
 std::string frameCell(const Row& row) {
-  if (row.groundFrame_ms() <= 0.0) return "<td></td>";
+  if (row.groundFrame_ms() <= 0.0) return timeCell(row.frame_ms[0], "%.1f");
   double spread = 0.0;
   for (uint32_t i = 0; i < kGroundViews; ++i) {
     const Timing& t = row.frame_ms[i];

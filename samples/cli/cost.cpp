@@ -2,6 +2,7 @@
 #include <alpenglow/cost.h>
 
 #include "commands.h"
+#include "cost_shafts.h"
 #include "failure.h"
 #include "progress.h"
 #include "sample_scenes.h"
@@ -18,6 +19,7 @@ void runCost(const CostArguments& arguments) {
   check(cost::prepareFolder(arguments.folder));
   Progress bar("Measuring");
   options.progress = [&bar](double share, const std::string& what) { bar.update(share, what); };
+  options.more = [&] { return measureShafts(arguments.device, arguments.quick); };
   const cost::Report report = take(cost::measure(options));
   check(cost::writeReport(report, arguments.folder));
 }

@@ -1,0 +1,136 @@
+#include "cost_shafts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "failure.h"
+#include "picture.h"
+#include "sample_scenes.h"
+#include "scene_plan.h"
+
+namespace alpenglow::cli {
+namespace {
+
+constexpr const char* kScene = "sunrise_shafts";
+constexpr uint32_t kReferenceSamples = 1024;
+
+struct Method {
+  io::SceneShafts method;
+  uint32_t samples;
+};
+
+std::string nameOf(const Method& method) {
+  constexpr const char* kNames[] = {"auto", "paper", "exact", "march", "off"};
+  const std::string name = kNames[static_cast<size_t>(method.method)];
+  return method.samples == 0 ? name : name + " " + std::to_string(method.samples);
+}
+
+struct Measured {
+  io::LinearImage picture;
+  std::vector<double> times_ms;  ///< Of frames, the terrain's own shading aside.
+  io::Report report;
+};
+
+double frameSeconds(const io::Report& report) {
+  double sum = 0.0;
+  for (const io::ReportPass& pass : report.passes) {
+    for (const char* name : {"sky slice", "sun map", "shafts", "air", "sky"})
+      if (pass.name == name) sum += pass.cpuSeconds.value_or(0.0);
+  }
+  return sum;
+}
+
+Measured draw(io::Scene scene, const Method& method, const std::string& device, uint32_t frames) {
+  scene.shafts = method.method;
+  scene.shaftSamples = std::max(method.samples, 1u);
+  RenderArguments arguments;
+  ShaftChoice choice = chooseShafts(arguments, scene, Solver::Moments);
+  const Plan plan = planScene(scene, {});
+  const SceneryFiles files = readScenery(scene);
+  Session session(
+      device,
+      plan.capabilities | choice.needs() | kCapabilityBake | kCapabilitySky | kCapabilityAir,
+      choice.wishes());
+  const PictureTarget target = createPictureTarget(&session, scene.width, scene.height);
+  std::optional<ShaftsDesc> shafts = describeShafts(choice, session);
+  if (shafts) shafts->without = plan.viewWithout;
+  Scenery scenery(&session, scene, files, plan.tableDesc, shafts, plan);
+  TableRequest request;
+  request.desc = plan.tableDesc;
+  const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
+  Measured measured;
+  // The first compiles the shaders.
+  measured.picture = drawScene(&session, scene, nullptr, ready, plan, target, &scenery);
+  for (uint32_t i = 0; i < frames; ++i) {
+    const double before = frameSeconds(session.report());
+    drawScene(&session, scene, nullptr, ready, plan, target, &scenery);
+    measured.times_ms.push_back(1e3 * (frameSeconds(session.report()) - before));
+  }
+  measured.report = session.report();
+  return measured;
+}
+
+cost::BandError errorOf(const io::LinearImage& image, const io::LinearImage& reference) {
+  std::vector<float> sorted = reference.pixels;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<ptrdiff_t>(sorted.size() / 2),
+                   sorted.end());
+  const double floor = 0.02 * static_cast<double>(sorted[sorted.size() / 2]);
+  std::vector<double> errors;
+  for (size_t i = 0; i + 2 < image.pixels.size(); i += 3) {
+    double worst = 0.0;
+    for (size_t c = i; c < i + 3; ++c) {
+      const double wanted = static_cast<double>(reference.pixels[c]);
+      const double off = std::abs(static_cast<double>(image.pixels[c]) - wanted);
+      worst = std::max(worst, off / std::max(wanted, floor));
+    }
+    errors.push_back(worst);
+  }
+  std::sort(errors.begin(), errors.end());
+  return {errors[errors.size() * 95 / 100], errors.back(), static_cast<uint32_t>(errors.size())};
+}
+
+cost::Row rowOf(const Method& method, const Measured& measured, const io::LinearImage& reference) {
+  constexpr uint32_t kLow = 1;  // the sun of the scene is up, and low
+  cost::Row row;
+  row.sweep = "shafts";
+  row.name = nameOf(method);
+  row.family = "moments";
+  row.detail = std::string("scene ") + kScene + ", sky slice, shafts, air and sky";
+  row.note =
+      "errors are a picture's, against " + std::to_string(kReferenceSamples) + " samples a ray";
+  row.frame_ms[0] = cost::timingOf(measured.times_ms);
+  row.bytes = measured.report.totals.bytes;
+  row.peakBytes = row.bytes;
+  row.errors[kLow] = errorOf(measured.picture, reference);
+  return row;
+}
+
+}  // namespace
+
+io::Result<std::vector<cost::Row>> measureShafts(const std::string& device, bool quick) {
+  using Rows = io::Result<std::vector<cost::Row>>;
+  try {
+    io::Scene scene = take(io::readScene(findScene(kScene)));
+    scene.width = quick ? 320 : 640;
+    scene.height = quick ? 180 : 360;
+    scene.albedoMap.clear();
+    std::vector<Method> methods = {{io::SceneShafts::Off, 0},
+                                   {io::SceneShafts::Exact, 0},
+                                   {io::SceneShafts::Paper, 0},
+                                   {io::SceneShafts::March, 32}};
+    for (const uint32_t samples : {8u, 16u, 64u, 128u})
+      if (!quick) methods.push_back({io::SceneShafts::March, samples});
+    const io::LinearImage reference =
+        draw(scene, {io::SceneShafts::March, kReferenceSamples}, device, 0).picture;
+    std::vector<cost::Row> rows;
+    for (const Method& method : methods)
+      rows.push_back(rowOf(method, draw(scene, method, device, quick ? 2 : 3), reference));
+    return rows;
+  } catch (const Failure& failure) {
+    return Rows::failure(failure.what());
+  } catch (const samples::Error& error) {
+    return Rows::failure(error.what());
+  }
+}
+
+}  // namespace alpenglow::cli
