@@ -3,6 +3,10 @@
 #include <alpenglow/shaders/air_fragment.h>
 #include <alpenglow/shaders/air_fragment_volume.h>
 #include <alpenglow/shaders/air_volume_float.h>
+#include <alpenglow/shaders/effects_host.h>
+#include <alpenglow/shaders/effects_host_molecules.h>
+#include <alpenglow/shaders/effects_host_neither.h>
+#include <alpenglow/shaders/effects_host_single.h>
 #include <alpenglow/shaders/moment_field.h>
 #include <alpenglow/shaders/moment_light.h>
 #include <alpenglow/shaders/moment_light_molecules.h>
@@ -36,7 +40,7 @@ using Words = std::vector<uint32_t>;
 
 // Of the SPIR-V specification.
 constexpr uint32_t kHeaderWords = 5;
-constexpr uint32_t kSpecId = 1;
+constexpr uint32_t kSpecId = 1, kBinding = 33, kDescriptorSet = 34;
 /// Of shaders/glsl/bake/tile.glsl.
 constexpr uint32_t kFirstOrder = 0;
 enum Op : uint32_t {
@@ -222,6 +226,33 @@ TEST(EffectText, TablesThatAreNotThereAreNotDeclared) {
             size(ALPENGLOW_TEXT(kMomentLight), 0));
   EXPECT_LT(size(ALPENGLOW_TEXT(kMomentSingleMolecules), kMie),
             size(ALPENGLOW_TEXT(kMomentSingle), 0));
+}
+
+/// Bindings of a set that a shader declares.
+std::set<uint32_t> bindingsOf(Words text, uint32_t set) {
+  std::set<uint32_t> members, bindings;
+  const auto visit = [&](uint32_t decoration, const auto& found) {
+    eachInstruction(text, [&](uint32_t op, const uint32_t* words, uint32_t count) {
+      if (op == kOpDecorate && count == 4 && words[2] == decoration) found(words[1], words[3]);
+    });
+  };
+  visit(kDescriptorSet, [&](uint32_t id, uint32_t value) {
+    if (value == set) members.insert(id);
+  });
+  visit(kBinding, [&](uint32_t id, uint32_t value) {
+    if (members.count(id) != 0) bindings.insert(value);
+  });
+  return bindings;
+}
+
+// Uniforms, optical depths, moments, sources.
+TEST(EffectText, AHostsShaderDeclaresTheTablesThatThereAre) {
+  using Bindings = std::set<uint32_t>;
+  constexpr uint32_t kSet = 2;
+  EXPECT_EQ(bindingsOf(wordsOf(ALPENGLOW_TEXT(kHostWhole)), kSet), (Bindings{0, 1, 2, 3}));
+  EXPECT_EQ(bindingsOf(wordsOf(ALPENGLOW_TEXT(kHostMolecules)), kSet), (Bindings{0, 1, 2}));
+  EXPECT_EQ(bindingsOf(wordsOf(ALPENGLOW_TEXT(kHostSingle)), kSet), (Bindings{0, 1}));
+  EXPECT_EQ(bindingsOf(wordsOf(ALPENGLOW_TEXT(kHostNeither)), kSet), (Bindings{0, 1}));
 }
 
 // Both checks see what they are for.
