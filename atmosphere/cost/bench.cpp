@@ -21,9 +21,10 @@ void keep(void* user, const Diagnostic& diagnostic) {
 
 }  // namespace
 
-Bench::Bench(const std::string& device, VkExtent2D frame) {
+Bench::Bench(const std::string& device, VkExtent2D frame, bool validation) {
   headless::DeviceOptions options;
   options.select = device;
+  options.validation = validation;
   options.requirements = [](PFN_vkGetInstanceProcAddr getProcAddr, VkInstance instance,
                             VkPhysicalDevice physical, Requirements* out, std::string* missing) {
     return queryRequirements(getProcAddr, instance, physical, kWanted, out, keep, missing);
@@ -42,6 +43,11 @@ Bench::Bench(const std::string& device, VkExtent2D frame) {
 }
 
 Bench::~Bench() { destroyContext(context_); }
+
+void Bench::checkValidation() const {
+  const std::vector<std::string> messages = device_->validationMessages();
+  if (!messages.empty()) throw Failure("A validation layer says: " + messages.front());
+}
 
 void Bench::renew() {
   destroyContext(context_);

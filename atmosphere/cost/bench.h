@@ -43,7 +43,7 @@ struct Drawn {
 /// Not thread-safe. Functions throw a Failure.
 class Bench {
  public:
-  Bench(const std::string& device, VkExtent2D frame);
+  Bench(const std::string& device, VkExtent2D frame, bool validation);
   ~Bench();
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
@@ -61,6 +61,8 @@ class Bench {
   /// A context of its own for what comes next, so that it is accounted alone. No tables or views of
   /// the last one may be left.
   void renew();
+  /// Throws the first message of the validation layers, if there is any.
+  void checkValidation() const;
 
   /// A view, in a rendering scope of the target's format. Throws.
   ViewPointer view(const Drawn& drawn);

@@ -79,7 +79,7 @@ class Sweep {
       : options_(options),
         all_(std::move(all)),
         evening_(std::move(evening)),
-        bench_(options.device, {options.width, options.height}) {}
+        bench_(options.device, {options.width, options.height}, options.validation) {}
 
   Row measure(const Configuration& configuration);
   std::vector<Comparison> compare(const std::vector<Configuration>& models);
@@ -166,6 +166,9 @@ Row Sweep::measure(const Configuration& configuration) {
   const Truth& truth = configuration.onlySun_deg != 0.0 ? evening_ : all_;
   TablesPointer tables = bakeTimed(configuration, &row);
   if (tables == nullptr) return row;
+  if (const char* limit = modelLimit(configuration.desc.solver); *limit != '\0') {
+    row.note += (row.note.empty() ? "" : "; ") + std::string(limit);
+  }
   if (configuration.storage == Storage::SharedExponent) {
     tables = rounded(tables.get(), configuration);
     row.note = "its cost is that of 32-bit floats";
@@ -301,6 +304,7 @@ Report measureAll(const Options& options, Truth all, Truth evening) {
     report.rows.insert(report.rows.end(), more->begin(), more->end());
   }
   Bench& bench = sweep.bench();
+  bench.checkValidation();
   report.device = bench.device().name();
   report.driver = bench.driver();
   report.vulkan = bench.vulkan();

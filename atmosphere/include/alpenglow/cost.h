@@ -84,6 +84,7 @@ struct Options {
   MoreRowsFn more;                                                      ///< May be null.
   /// For tests: only rows whose "sweep/name" this accepts. Null: all.
   std::function<bool(const std::string&)> only;
+  bool validation = false;  ///< With validation layers, whose first message is a failure.
   uint32_t width = 640, height = 360;  ///< Of timed frames.
 };
 
