@@ -45,9 +45,9 @@ void runRender(const RenderArguments& arguments) {
     scenery.emplace(&session, scene, files, request.desc, describeShafts(shafts, session));
   }
   const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
-  const io::LinearImage image = drawScene(&session, scene, albedo ? &*albedo : nullptr, ready,
-                                          target, scenery ? &*scenery : nullptr);
-  writePicture(output, scene, image);
+  Painter painter(&session, scene, albedo ? &*albedo : nullptr, ready,
+                  scenery ? &*scenery : nullptr);
+  writePicture(output, scene, painter.draw(scene, ready.tables.get(), target));
   if (!arguments.run.report.empty()) {
     writeText(arguments.run.report, io::formatReport(session.report()));
   }

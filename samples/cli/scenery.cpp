@@ -65,7 +65,7 @@ void Scenery::drawShafts(View* view, const Tables* tables, const SkyDraw& draw) 
 }
 
 void Scenery::drawInto(const headless::Image& target, const SkyDraw& draw, const char* pass,
-                       bool first, const std::function<void(VkCommandBuffer)>& record) {
+                       bool first, const RecordFn& record) {
   session_->run([&](VkCommandBuffer commands) {
     gpu_.barrier(commands, target, first ? samples::kUndefined : samples::kColorDrawn,
                  samples::kColorDrawn);
@@ -76,7 +76,8 @@ void Scenery::drawInto(const headless::Image& target, const SkyDraw& draw, const
   });
 }
 
-void Scenery::draw(View* view, const Tables* tables, SkyDraw draw, const headless::Image& target) {
+void Scenery::draw(View* view, const Tables* tables, SkyDraw draw, const headless::Image& target,
+                   const RecordFn& stars) {
   draw.depth = landscape_.depthRange(draw.camera);
   // An engine records all this into one command buffer; here each pass is run and timed alone.
   session_->run([&](VkCommandBuffer commands) {
@@ -100,6 +101,7 @@ void Scenery::draw(View* view, const Tables* tables, SkyDraw draw, const headles
   drawInto(target, draw, "sky", !terrain, [&](VkCommandBuffer commands) {
     session_->check(recordSky(view, commands, session_->device().frame(), tables, draw));
   });
+  if (stars) drawInto(target, draw, "stars", false, stars);
   if (landscape_.hasBalloons()) {
     if (!terrain) {
       session_->run([&](VkCommandBuffer commands) {
@@ -110,10 +112,6 @@ void Scenery::draw(View* view, const Tables* tables, SkyDraw draw, const headles
     drawInto(target, draw, "balloons", false,
              [&](VkCommandBuffer commands) { landscape_.recordBalloons(commands, tables, draw); });
   }
-  session_->run([&](VkCommandBuffer commands) {
-    gpu_.barrier(commands, target, samples::kColorDrawn, samples::kCopySource);
-    return "readback";
-  });
 }
 
 }  // namespace alpenglow::cli

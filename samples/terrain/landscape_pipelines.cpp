@@ -114,7 +114,7 @@ void Landscape::makePipelines(const LandscapeDesc& desc) {
   pipeline.vertexStride = 0;
   pipeline.attributes = {};
   pipeline.color = desc.colorFormat;
-  pipeline.blends = true;
+  pipeline.blending = Blending::Alpha;
   pipeline.fragment = standard             ? Code(s::kSampleBalloonStandard)
                       : shafts_ != nullptr ? Code(s::kSampleBalloonShafts)
                                            : Code(s::kSampleBalloon);
