@@ -9,6 +9,8 @@ namespace alpenglow::cli {
 void runPresets(const std::string& name);
 void runBake(const BakeArguments& arguments);
 void runRender(const RenderArguments& arguments);
+/// What runRender does where --walk was given.
+void runWalk(const RenderArguments& arguments);
 void runProbe(const ProbeArguments& arguments);
 
 }  // namespace alpenglow::cli

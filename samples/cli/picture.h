@@ -19,6 +19,10 @@ struct ViewDeleter {
 };
 using ViewPointer = std::unique_ptr<View, ViewDeleter>;
 
+/// Writes linear radiance (.exr), or the picture that the scene's exposure and tone map make of it
+/// (.png). Throws a Failure.
+void writePicture(const std::string& path, const io::Scene& scene, const io::LinearImage& image);
+
 /// Draws pictures of scenes that differ in camera, sun and stars; not in projection. Destroyed
 /// before what it is given.
 class Painter {

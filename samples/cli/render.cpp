@@ -5,12 +5,10 @@
 #include "failure.h"
 #include "outputs.h"
 #include "picture.h"
-#include "sample_scenes.h"
+#include "sample_files.h"
 #include "tables.h"
 
 namespace alpenglow::cli {
-namespace {
-
 void writePicture(const std::string& path, const io::Scene& scene, const io::LinearImage& image) {
   if (hasEnding(path, ".exr")) {
     check(io::writeExr(path, image));
@@ -20,12 +18,35 @@ void writePicture(const std::string& path, const io::Scene& scene, const io::Lin
   check(io::writePng(path, io::toneMapped(image, exposure, scene.toneMap)));
 }
 
+namespace {
+
+void checkWhatIsRendered(const RenderArguments& arguments) {
+  const bool walks = !arguments.walk.empty();
+  if (walks && !arguments.scene.empty()) {
+    throw Failure("The scene '" + arguments.scene + "' and the walk '" + arguments.walk +
+                      "' were given; one of them was expected.",
+                  Failure::kUsage);
+  }
+  if (!walks && arguments.scene.empty()) {
+    throw Failure("Neither SCENE nor --walk was given; one of them was expected.", Failure::kUsage);
+  }
+  for (const auto& [name, value] : {std::pair("--format-image", &arguments.imageFormat),
+                                    std::pair("--frames", &arguments.frames)}) {
+    if (walks || !*value) continue;
+    throw Failure(
+        std::string(name) + " " + **value + " belongs to a walk, but --walk wasn't given.",
+        Failure::kUsage);
+  }
+}
+
 }  // namespace
 
 void runRender(const RenderArguments& arguments) {
+  checkWhatIsRendered(arguments);
+  if (!arguments.walk.empty()) return runWalk(arguments);
   const std::string& output = arguments.run.output;
   checkEnding(output, {".exr", ".png"});
-  io::Scene scene = take(io::readScene(findScene(arguments.scene)));
+  io::Scene scene = take(io::readScene(findSample("scenes", arguments.scene)));
   checkScenery(scene);
   if (!arguments.size.empty()) parsePictureSize(arguments.size, &scene.width, &scene.height);
   std::optional<io::AlbedoMap> albedo;
