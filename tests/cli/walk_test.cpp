@@ -67,24 +67,20 @@ TEST_F(Walks, FramesAreThePicturesOfTheirScenes) {
   for (size_t i = 0; i < heights.pixels.size(); i += 21) heights.pixels[i] = 900.0f;
   ASSERT_TRUE(io::writeExr(folder_ / "h.exr", heights));
   for (const std::string& scenery : more) {
-    for (const std::string format : {"png", "exr"}) {
-      expectGood(renderOf(walk(kThreeKeys, kStart + scenery), {"--format-image", format}));
-      for (int i = 0; i < 3; ++i) {
-        const std::string single = folder_ / ("single." + format);
-        expectGood(joined(
-            {"render",
-             folder_.write("s.json", "{" + (kThreeScenes[i] + scenery) + R"(, "size": [40, 24]})"),
-             "-o", single},
-            smallMoments()));
-        const std::string frame = folder_ / ("out/frame_0000" + std::to_string(i) + "." + format);
-        if (format == "png") {
-          EXPECT_EQ(contentsOf(frame), contentsOf(single)) << frame << scenery;
-        } else {
-          EXPECT_EQ(io::readExr(frame)->pixels, io::readExr(single)->pixels) << frame << scenery;
-        }
+    const std::string format = scenery.empty() ? "png" : "exr";
+    const std::string single = folder_ / ("single." + format);
+    expectGood(renderOf(walk(kThreeKeys, kStart + scenery), {"--format-image", format}));
+    for (int i = 0; i < 3; ++i) {
+      const std::string text = "{" + (kThreeScenes[i] + scenery) + R"(, "size": [40, 24]})";
+      expectGood(joined({"render", folder_.write("s.json", text), "-o", single}, smallMoments()));
+      const std::string frame = folder_ / ("out/frame_0000" + std::to_string(i) + "." + format);
+      if (format == "png") {
+        EXPECT_EQ(contentsOf(frame), contentsOf(single)) << frame << scenery;
+      } else {
+        EXPECT_EQ(io::readExr(frame)->pixels, io::readExr(single)->pixels) << frame << scenery;
       }
     }
-    EXPECT_EQ(frames().size(), 6u);
+    EXPECT_EQ(frames().size(), 3u);
     fs::remove_all(folder_ / "out");
   }
 }
