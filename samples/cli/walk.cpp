@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Each has a walk of its own, with what doesn't move from the first.
+// What the walk shows at its keys.
 std::vector<io::Scene> keyScenes(const io::Walk& walk) {
   std::vector<io::Scene> scenes;
   for (const io::WalkKey& key : walk.keys) scenes.push_back(io::sceneAt(walk, key.time_s));
