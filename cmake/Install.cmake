@@ -32,7 +32,8 @@ if(ALPENGLOW_BUILD_IO)
 endif()
 if(ALPENGLOW_BUILD_SAMPLES)
   install(TARGETS alpenglow RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-  install(DIRECTORY "${PROJECT_SOURCE_DIR}/samples/scenes" "${PROJECT_SOURCE_DIR}/samples/data"
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/samples/scenes" "${PROJECT_SOURCE_DIR}/samples/walks"
+                    "${PROJECT_SOURCE_DIR}/samples/data"
           DESTINATION "${share}")
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/tests/data/truth" DESTINATION "${share}"
           FILES_MATCHING PATTERN "earth.*" PATTERN "evening.*")

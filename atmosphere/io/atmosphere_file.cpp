@@ -71,7 +71,8 @@ Parameters atmosphereFromJson(JsonErrors* errors, const Json& value, const std::
   parameters.sunAngularRadius = radians(reader.number("sun_angular_radius_deg"));
   char message[512] = "";
   if (errors->ok() && validate(parameters, message, sizeof message) != Status::Ok) {
-    errors->first = "In '" + errors->file + "': " + message;
+    errors->first =
+        "In '" + errors->file + (errors->where.empty() ? "': " : "', ") + errors->where + message;
   }
   return parameters;
 }

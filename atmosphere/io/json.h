@@ -39,9 +39,10 @@ std::string showNumber(double value);
 struct JsonErrors {
   std::string file;
   std::string first;
+  std::string where = {};  ///< The part of the file that is read, such as "key 3: ".
   bool ok() const { return first.empty(); }
   void add(const std::string& text) {
-    if (first.empty()) first = "In '" + file + "', " + text;
+    if (first.empty()) first = "In '" + file + "', " + where + text;
   }
 };
 

@@ -8,6 +8,7 @@
 
 #include "atmosphere/io/atmosphere_json.h"
 #include "atmosphere/io/scene_balloons.h"
+#include "atmosphere/io/scene_json.h"
 #include "atmosphere/io/scene_model.h"
 #include "atmosphere/io/scene_terrain.h"
 
@@ -73,6 +74,8 @@ SceneCamera readCamera(JsonErrors* errors, const Json& value) {
   return camera;
 }
 
+}  // namespace
+
 void readAtmosphereOf(JsonErrors* errors, const Json& value, const std::string& folder,
                       Parameters* out) {
   if (value.is_object()) {
@@ -95,6 +98,8 @@ void readAtmosphereOf(JsonErrors* errors, const Json& value, const std::string& 
   }
   *out = *parameters;
 }
+
+namespace {
 
 std::string readGround(JsonErrors* errors, const Json& value, const std::string& folder) {
   ObjectReader reader(errors, value, "ground.", "", {"albedo_map"});
@@ -201,9 +206,25 @@ void readShafts(JsonErrors* errors, ObjectReader* reader, Scene* scene) {
   }
 }
 
+// true: those of sidereal time 0.
+std::optional<SceneStars> readStars(JsonErrors* errors, ObjectReader* reader) {
+  const Json& value = reader->required("stars");
+  if (value.is_boolean()) {
+    return value.get<bool>() ? std::optional<SceneStars>(SceneStars{}) : std::nullopt;
+  }
+  if (!value.is_object()) {
+    reader->wrong("stars", "true, false, null or an object with sidereal_hours");
+    return std::nullopt;
+  }
+  ObjectReader stars(errors, value, "stars.", "", {"sidereal_hours"});
+  return SceneStars{stars.numberOr("sidereal_hours", 0.0, -1e6, 1e6)};
+}
+
+}  // namespace
+
 Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& folder) {
   ObjectReader reader(errors, value, "", "",
-                      {"atmosphere", "sun", "camera", "ground", "terrain", "balloons", "size",
+                      {"atmosphere", "sun", "camera", "ground", "terrain", "balloons", "stars", "size",
                        "exposure", "tone_map", "model", "model_samples", "solver", "orders",
                        "quality", "shafts", "shaft_samples", "effects", "needs"});
   Scene scene;
@@ -228,6 +249,7 @@ Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& fo
   if (reader.given("balloons")) {
     scene.balloons = readBalloons(errors, reader.required("balloons"));
   }
+  if (reader.given("stars")) scene.stars = readStars(errors, &reader);
   readSize(errors, &reader, &scene);
   scene.exposure = readExposure(&reader);
   scene.toneMap = static_cast<ToneMap>(reader.choice("tone_map", toneMapNames()));
@@ -237,6 +259,8 @@ Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& fo
   if (reader.given("needs")) scene.needs = readNeeds(errors, reader.required("needs"), scene);
   return scene;
 }
+
+namespace {
 
 Result<Scene> sceneOrError(const Json& value, const std::string& name, const std::string& folder) {
   JsonErrors errors{name, {}};

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "failure.h"
+#include "frame_list.h"
 
 namespace alpenglow::cli {
 namespace {
@@ -167,6 +168,23 @@ void addSizeOption(CLI::App* command, std::string* size) {
   command->add_option("--size", *size, "Pixels of the picture (default: the scene's)")
       ->type_name("WxH")
       ->check(checkPictureSize);
+}
+
+void addWalkOptions(CLI::App* command, RenderArguments* arguments) {
+  command
+      ->add_option("--walk", arguments->walk,
+                   "Render a walk instead of a scene, a sample walk's name or a walk file: each "
+                   "frame a picture in the folder of -o, frame_00000.png onward")
+      ->type_name("WALK.json");
+  command
+      ->add_option("--format-image", arguments->imageFormat, "Of a walk's pictures (default png)")
+      ->type_name("png|exr")
+      ->check(oneOf({"png", "exr"}));
+  command
+      ->add_option("--frames", arguments->frames,
+                   "The frames of a walk to render, such as 0,24,48-96 (default: all)")
+      ->type_name("LIST")
+      ->check(checkFrames);
 }
 
 void addShaftOptions(CLI::App* command, RenderArguments* arguments) {

@@ -5,7 +5,7 @@
 #include "cost_shafts.h"
 #include "failure.h"
 #include "progress.h"
-#include "sample_scenes.h"
+#include "sample_files.h"
 
 namespace alpenglow::cli {
 

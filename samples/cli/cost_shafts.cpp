@@ -5,7 +5,7 @@
 
 #include "failure.h"
 #include "picture.h"
-#include "sample_scenes.h"
+#include "sample_files.h"
 #include "scene_plan.h"
 
 namespace alpenglow::cli {
@@ -60,10 +60,11 @@ Measured draw(io::Scene scene, const Method& method, const std::string& device, 
   const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
   Measured measured;
   // The first compiles the shaders.
-  measured.picture = drawScene(&session, scene, nullptr, ready, plan, target, &scenery);
+  Painter painter(&session, scene, nullptr, ready, plan, &scenery);
+  measured.picture = painter.draw(scene, ready.tables.get(), target);
   for (uint32_t i = 0; i < frames; ++i) {
     const double before = frameSeconds(session.report());
-    drawScene(&session, scene, nullptr, ready, plan, target, &scenery);
+    painter.draw(scene, ready.tables.get(), target);
     measured.times_ms.push_back(1e3 * (frameSeconds(session.report()) - before));
   }
   measured.report = session.report();
@@ -110,7 +111,7 @@ cost::Row rowOf(const Method& method, const Measured& measured, const io::Linear
 io::Result<std::vector<cost::Row>> measureShafts(const std::string& device, bool quick) {
   using Rows = io::Result<std::vector<cost::Row>>;
   try {
-    io::Scene scene = take(io::readScene(findScene(kScene)));
+    io::Scene scene = take(io::readScene(findSample("scenes", kScene)));
     scene.width = quick ? 320 : 640;
     scene.height = quick ? 180 : 360;
     scene.albedoMap.clear();

@@ -6,7 +6,7 @@
 
 #include "commands.h"
 #include "failure.h"
-#include "sample_scenes.h"
+#include "sample_files.h"
 #include "scene_plan.h"
 
 namespace alpenglow::cli {
@@ -129,7 +129,7 @@ Json planJson(const Plan& plan) {
 }  // namespace
 
 void runExplain(const ExplainArguments& arguments) {
-  const io::Scene scene = take(io::readScene(findScene(arguments.scene)));
+  const io::Scene scene = take(io::readScene(findSample("scenes", arguments.scene)));
   const Plan plan = planScene(scene, tablesOf(scene));
   if (arguments.json) {
     std::cout << planJson(plan).dump(2) << '\n';

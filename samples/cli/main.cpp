@@ -44,12 +44,14 @@ void addBake(CLI::App* app, Arguments* arguments) {
 
 void addRender(CLI::App* app, Arguments* arguments) {
   RenderArguments* render = &arguments->render;
-  CLI::App* command = app->add_subcommand("render", "Render a scene to a picture");
-  command->add_option("SCENE", render->scene, "A sample scene's name or a scene file")->required();
+  CLI::App* command =
+      app->add_subcommand("render", "Render a scene to a picture, or a walk to many");
+  command->add_option("SCENE", render->scene, "A sample scene's name or a scene file");
   addRunOptions(command,
                 "The picture to write: .exr for linear radiance, .png for an exposed and tone "
-                "mapped picture",
+                "mapped picture; of a walk, the folder",
                 &render->run);
+  addWalkOptions(command, render);
   addSizeOption(command, &render->size);
   addShaftOptions(command, render);
   addTableOptions(command, kKeepOrdersHelp, &render->tables);

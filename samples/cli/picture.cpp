@@ -3,58 +3,74 @@
 #include "scene_plan.h"
 
 namespace alpenglow::cli {
-namespace {
-
-struct ViewDeleter {
-  Session* session = nullptr;
-  void operator()(View* view) const { destroyView(view, session->device().frame()); }
-};
-using ViewPointer = std::unique_ptr<View, ViewDeleter>;
-
-void recordPicture(Session* session, VkCommandBuffer commands, const headless::Image& target,
-                   View* view, const Tables* tables, const SkyDraw& draw) {
-  const FrameInfo frame = session->device().frame();
-  const samples::Gpu gpu = session->gpu();
-  session->check(recordSkySlice(view, commands, frame, tables, draw));
-  gpu.barrier(commands, target, samples::kUndefined, samples::kColorDrawn);
-  gpu.render(commands, target, draw.viewport, VK_ATTACHMENT_LOAD_OP_CLEAR, nullptr,
-             [&] { session->check(recordSky(view, commands, frame, tables, draw)); });
-  gpu.barrier(commands, target, samples::kColorDrawn, samples::kCopySource);
-}
-
-}  // namespace
-
-io::LinearImage drawScene(Session* session, const io::Scene& scene, const io::AlbedoMap* albedo,
-                          const ReadyTables& ready, const Plan& plan, const PictureTarget& target,
-                          Scenery* scenery) {
-  const samples::Gpu gpu = session->gpu();
-  const samples::Owned<VkSampler> sampler = gpu.sampler(VK_SAMPLER_ADDRESS_MODE_REPEAT);
-  headless::Image albedoImage;
+Painter::Painter(Session* session, const io::Scene& scene, const io::AlbedoMap* albedo,
+                 const ReadyTables& tables, const Plan& plan, Scenery* scenery)
+    : session_(session), gpu_(session->gpu()), scenery_(scenery), solver_(tables.desc.solver) {
   ViewDesc desc;
   desc.colorFormat = kPictureFormat;
   desc.projection = samples::projectionOf(scene.camera);
   describeView(plan, &desc);
   // Where a slice can't be recorded, recordSky reads the tables.
-  desc.skySlice = ready.tables.get();
+  desc.skySlice = tables.tables.get();
   if (albedo != nullptr) {
-    albedoImage = gpu.texture(*albedo);
-    desc.groundAlbedo = {albedoImage.view(), sampler.get(), samples::kSampled.layout,
-                         albedoImage.extent().width, albedoImage.extent().height};
+    sampler_ = gpu_.sampler(VK_SAMPLER_ADDRESS_MODE_REPEAT);
+    albedo_ = gpu_.texture(*albedo);
+    desc.groundAlbedo = {albedo_.view(), sampler_.get(), samples::kSampled.layout,
+                         albedo_.extent().width, albedo_.extent().height};
   }
   if (scenery != nullptr) scenery->describe(&desc);
   View* made = nullptr;
   session->check(createView(session->context(), desc, &made));
-  const ViewPointer view(made, ViewDeleter{session});
+  view_ = ViewPointer(made, ViewDeleter{session});
+}
+
+void Painter::drawPlain(const Tables* tables, const SkyDraw& draw, const headless::Image& target,
+                        const RecordFn& stars) {
+  const auto render = [&](VkCommandBuffer commands, VkAttachmentLoadOp load,
+                          const std::function<void()>& record) {
+    const bool first = load == VK_ATTACHMENT_LOAD_OP_CLEAR;
+    gpu_.barrier(commands, target, first ? samples::kUndefined : samples::kColorDrawn,
+                 samples::kColorDrawn);
+    gpu_.render(commands, target, draw.viewport, load, nullptr, record);
+  };
+  session_->run([&](VkCommandBuffer commands) {
+    const FrameInfo frame = session_->device().frame();
+    session_->check(recordSkySlice(view_.get(), commands, frame, tables, draw));
+    render(commands, VK_ATTACHMENT_LOAD_OP_CLEAR,
+           [&] { session_->check(recordSky(view_.get(), commands, frame, tables, draw)); });
+    return "sky";
+  });
+  if (!stars) return;
+  session_->run([&](VkCommandBuffer commands) {
+    render(commands, VK_ATTACHMENT_LOAD_OP_LOAD, [&] { stars(commands); });
+    return "stars";
+  });
+}
+
+io::LinearImage Painter::draw(const io::Scene& scene, const Tables* tables,
+                              const PictureTarget& target) {
   const SkyDraw draw = describeDraw(scene);
-  if (scenery != nullptr) {
-    scenery->draw(view.get(), ready.tables.get(), draw, target.image);
-  } else {
-    session->run([&](VkCommandBuffer commands) {
-      recordPicture(session, commands, target.image, view.get(), ready.tables.get(), draw);
-      return "sky";
-    });
+  RecordFn stars;
+  if (scene.stars) {
+    if (!stars_) {
+      const VkFormat depth = scenery_ != nullptr ? scenery_->depthFormat() : VK_FORMAT_UNDEFINED;
+      stars_.emplace(&gpu_, samples::StarsDesc{session_->context(), kPictureFormat, depth,
+                                               samples::projectionOf(scene.camera), solver_});
+    }
+    stars = [&](VkCommandBuffer commands) {
+      stars_->record(commands, scene.atmosphere, tables, draw, scene.stars->siderealHours);
+    };
   }
-  return readPicture(session, target);
+  if (scenery_ != nullptr) {
+    scenery_->draw(view_.get(), tables, draw, target.image, stars);
+  } else {
+    drawPlain(tables, draw, target.image, stars);
+  }
+  session_->run([&](VkCommandBuffer commands) {
+    gpu_.barrier(commands, target.image, samples::kColorDrawn, samples::kCopySource);
+    return "readback";
+  });
+  return readPicture(session_, target);
 }
 
 }  // namespace alpenglow::cli

@@ -5,12 +5,11 @@
 #include "failure.h"
 #include "outputs.h"
 #include "picture.h"
-#include "sample_scenes.h"
+#include "sample_files.h"
 #include "scene_plan.h"
 #include "tables.h"
 
 namespace alpenglow::cli {
-namespace {
 
 void writePicture(const std::string& path, const io::Scene& scene, const io::LinearImage& image) {
   if (hasEnding(path, ".exr")) {
@@ -20,6 +19,8 @@ void writePicture(const std::string& path, const io::Scene& scene, const io::Lin
   const double exposure = scene.exposure ? *scene.exposure : io::automaticExposure(image);
   check(io::writePng(path, io::toneMapped(image, exposure, scene.toneMap)));
 }
+
+namespace {
 
 std::optional<ShaftsDesc> shaftsOf(const ShaftChoice& choice, const Session& session,
                                    const Plan& plan) {
@@ -47,12 +48,33 @@ Plan planPicture(const RenderArguments& arguments, io::Scene scene, const ShaftC
   return plan;
 }
 
+void checkWhatIsRendered(const RenderArguments& arguments) {
+  const bool walks = !arguments.walk.empty();
+  if (walks && !arguments.scene.empty()) {
+    throw Failure("The scene '" + arguments.scene + "' and the walk '" + arguments.walk +
+                      "' were given; one of them was expected.",
+                  Failure::kUsage);
+  }
+  if (!walks && arguments.scene.empty()) {
+    throw Failure("Neither SCENE nor --walk was given; one of them was expected.", Failure::kUsage);
+  }
+  for (const auto& [name, value] : {std::pair("--format-image", &arguments.imageFormat),
+                                    std::pair("--frames", &arguments.frames)}) {
+    if (walks || !*value) continue;
+    throw Failure(
+        std::string(name) + " " + **value + " belongs to a walk, but --walk wasn't given.",
+        Failure::kUsage);
+  }
+}
+
 }  // namespace
 
 void runRender(const RenderArguments& arguments) {
+  checkWhatIsRendered(arguments);
+  if (!arguments.walk.empty()) return runWalk(arguments);
   const std::string& output = arguments.run.output;
   checkEnding(output, {".exr", ".png"});
-  io::Scene scene = take(io::readScene(findScene(arguments.scene)));
+  io::Scene scene = take(io::readScene(findSample("scenes", arguments.scene)));
   checkScenery(scene);
   if (!arguments.size.empty()) parsePictureSize(arguments.size, &scene.width, &scene.height);
   std::optional<io::AlbedoMap> albedo;
@@ -77,9 +99,9 @@ void runRender(const RenderArguments& arguments) {
     scenery.emplace(&session, scene, files, request.desc, shaftsOf(shafts, session, plan), plan);
   }
   const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
-  const io::LinearImage image = drawScene(&session, scene, albedo ? &*albedo : nullptr, ready, plan,
-                                          target, scenery ? &*scenery : nullptr);
-  writePicture(output, scene, image);
+  Painter painter(&session, scene, albedo ? &*albedo : nullptr, ready, plan,
+                  scenery ? &*scenery : nullptr);
+  writePicture(output, scene, painter.draw(scene, ready.tables.get(), target));
   if (!arguments.run.report.empty()) {
     writeText(arguments.run.report, io::formatReport(session.report()));
   }

@@ -38,16 +38,17 @@ void describeSun(const io::Scene& scene, Needs* needs) {
   needs->sunFixed = needs->sunElevationFrom == needs->sunElevationTo;
 }
 
-// Terrain and balloons are drawn by shaders that read every table.
+// Terrain, balloons and stars are drawn by shaders that read every table.
 void keepTables(const io::Scene& scene, Needs* needs) {
-  if (!scene.terrain && scene.balloons.empty()) return;
+  if (!scene.terrain && scene.balloons.empty() && !scene.stars) return;
   for (uint32_t i = 0; i < kEffectCount; ++i) {
     const auto effect = static_cast<Effect>(i);
     if ((kTableEffects & effectBit(effect)) == 0) continue;
     if (needs->effects[i] == Force::Off) {
-      throw Failure(std::string("The scene turns ") + effectName(effect) +
-                    " off, but its terrain or balloons are drawn with all tables: only scenes "
-                    "without them can be without it.");
+      throw Failure(
+          std::string("The scene turns ") + effectName(effect) +
+          " off, but its terrain, balloons or stars are drawn with all tables: only scenes "
+          "without them can be without it.");
     }
     needs->effects[i] = Force::On;
   }

@@ -21,6 +21,10 @@ samples::LandscapeDesc describeLandscape(Session* session, const io::Scene& scen
 }  // namespace
 
 void checkScenery(const io::Scene& scene) {
+  if (scene.stars && io::solverOf(scene.model)) {
+    throw Failure("The scene has stars and the model " + io::modelName(scene.model) +
+                  ", but stars are dimmed by tables of the model bruneton.");
+  }
   if (scene.camera.projection != Projection::Fisheye) return;
   if (!scene.terrain && scene.balloons.empty()) return;
   throw Failure(std::string("The scene has ") + (scene.terrain ? "a terrain" : "balloons") +
@@ -67,7 +71,7 @@ void Scenery::drawShafts(View* view, const Tables* tables, const SkyDraw& draw) 
 }
 
 void Scenery::drawInto(const headless::Image& target, const SkyDraw& draw, const char* pass,
-                       bool first, const std::function<void(VkCommandBuffer)>& record) {
+                       bool first, const RecordFn& record) {
   session_->run([&](VkCommandBuffer commands) {
     gpu_.barrier(commands, target, first ? samples::kUndefined : samples::kColorDrawn,
                  samples::kColorDrawn);
@@ -78,7 +82,8 @@ void Scenery::drawInto(const headless::Image& target, const SkyDraw& draw, const
   });
 }
 
-void Scenery::draw(View* view, const Tables* tables, SkyDraw draw, const headless::Image& target) {
+void Scenery::draw(View* view, const Tables* tables, SkyDraw draw, const headless::Image& target,
+                   const RecordFn& stars) {
   draw.depth = landscape_.depthRange(draw.camera);
   // An engine records all this into one command buffer; here each pass is run and timed alone.
   session_->run([&](VkCommandBuffer commands) {
@@ -103,6 +108,7 @@ void Scenery::draw(View* view, const Tables* tables, SkyDraw draw, const headles
   drawInto(target, draw, "sky", !terrain, [&](VkCommandBuffer commands) {
     session_->check(recordSky(view, commands, session_->device().frame(), tables, draw));
   });
+  if (stars) drawInto(target, draw, "stars", false, stars);
   if (landscape_.hasBalloons()) {
     if (!terrain) {
       session_->run([&](VkCommandBuffer commands) {
@@ -113,10 +119,6 @@ void Scenery::draw(View* view, const Tables* tables, SkyDraw draw, const headles
     drawInto(target, draw, "balloons", false,
              [&](VkCommandBuffer commands) { landscape_.recordBalloons(commands, tables, draw); });
   }
-  session_->run([&](VkCommandBuffer commands) {
-    gpu_.barrier(commands, target, samples::kColorDrawn, samples::kCopySource);
-    return "readback";
-  });
 }
 
 }  // namespace alpenglow::cli

@@ -21,6 +21,8 @@ struct SceneryFiles {
 };
 SceneryFiles readScenery(const io::Scene& scene);
 
+using RecordFn = std::function<void(VkCommandBuffer)>;
+
 /// On the device, before the tables: no bake is lost to what doesn't fit. Destroyed before the
 /// session; the files outlive it.
 class Scenery {
@@ -32,13 +34,19 @@ class Scenery {
   void describe(ViewDesc* view) const;
 
   /// Draws everything, the sky too, a pass at a time, into a target in any layout; leaves it in
-  /// kCopySource.
-  void draw(View* view, const Tables* tables, SkyDraw draw, const headless::Image& target);
+  /// kColorDrawn. `stars`, if any, records what is behind all but the sky.
+  void draw(View* view, const Tables* tables, SkyDraw draw, const headless::Image& target,
+            const RecordFn& stars);
+
+  /// Of the pipelines that draw behind it; undefined without depth.
+  VkFormat depthFormat() const {
+    return landscape_.hasTerrain() ? samples::kDepthFormat : VK_FORMAT_UNDEFINED;
+  }
 
  private:
   void drawShafts(View* view, const Tables* tables, const SkyDraw& draw);
   void drawInto(const headless::Image& target, const SkyDraw& draw, const char* pass, bool first,
-                const std::function<void(VkCommandBuffer)>& record);
+                const RecordFn& record);
 
   Session* session_;
   samples::Gpu gpu_;

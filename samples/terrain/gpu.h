@@ -50,6 +50,12 @@ class Owned {
 /// SPIR-V as shaders are embedded.
 using Code = std::span<const uint32_t>;
 
+enum class Blending {
+  None,
+  Alpha,  ///< What is there shows through.
+  Add,    ///< Light is added to it.
+};
+
 /// A pipeline for dynamic rendering, with viewport and scissor set while recording.
 struct PipelineDesc {
   Code vertex;
@@ -60,7 +66,7 @@ struct PipelineDesc {
   VkFormat color = VK_FORMAT_UNDEFINED;
   VkFormat depth = VK_FORMAT_UNDEFINED;
   bool writesDepth = false;  ///< Nearest wins; else drawn where not farther than what is there.
-  bool blends = false;       ///< By alpha.
+  Blending blending = Blending::None;
   const VkSpecializationInfo* fragmentConstants = nullptr;
 };
 

@@ -142,7 +142,7 @@ void Landscape::makePipelines(const LandscapeDesc& desc) {
   pipeline.vertexStride = 0;
   pipeline.attributes = {};
   pipeline.color = desc.colorFormat;
-  pipeline.blends = true;
+  pipeline.blending = Blending::Alpha;
   pipeline.fragment = textOf(desc.solver, shafts_ != nullptr, false);
   const VkBool32 packed = desc.mie == MieStorage::Packed;
   const VkSpecializationMapEntry entry = {0, 0, sizeof packed};

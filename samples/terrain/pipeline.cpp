@@ -17,9 +17,10 @@ VkPipelineShaderStageCreateInfo stage(VkShaderStageFlagBits bit, VkShaderModule 
 
 VkPipelineColorBlendAttachmentState blendOf(const PipelineDesc& desc) {
   VkPipelineColorBlendAttachmentState blend = {};
-  blend.blendEnable = desc.blends;
-  blend.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
-  blend.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+  const bool adds = desc.blending == Blending::Add;
+  blend.blendEnable = desc.blending != Blending::None;
+  blend.srcColorBlendFactor = adds ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_SRC_ALPHA;
+  blend.dstColorBlendFactor = adds ? VK_BLEND_FACTOR_ONE : VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
   blend.colorBlendOp = VK_BLEND_OP_ADD;
   blend.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
   blend.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;

@@ -181,6 +181,24 @@ TEST(SceneFile, ShaftsHaveTheirNames) {
             SceneShafts::Exact);
 }
 
+TEST(SceneFile, StarsAreThereOrNot) {
+  const auto stars = [](const char* value) {
+    const Result<Scene> result = parseScene(with("stars", value), "s.json", "");
+    EXPECT_TRUE(result) << result.error;
+    return result ? result->stars : std::nullopt;
+  };
+  EXPECT_FALSE(parseScene(kLeast, "s.json", "")->stars.has_value());
+  EXPECT_FALSE(stars("null").has_value());
+  EXPECT_FALSE(stars("false").has_value());
+  EXPECT_EQ(stars("true")->siderealHours, 0.0);
+  EXPECT_EQ(stars("{}")->siderealHours, 0.0);
+  EXPECT_EQ(stars("{\"sidereal_hours\": -30.5}")->siderealHours, -30.5);
+  expectMentions(errorOf(with("stars", "3")), {"'stars'", "3", "sidereal_hours"});
+  expectMentions(errorOf(with("stars", "{\"hours\": 3}")), {"'stars.hours'", "unknown"});
+  expectMentions(errorOf(with("stars", "{\"sidereal_hours\": \"six\"}")),
+                 {"'stars.sidereal_hours'", "six"});
+}
+
 std::string withCamera(const std::string& camera) {
   return R"({"atmosphere": "earth", "sun": {"elevation_deg": 1}, "camera": )" + camera + "}";
 }

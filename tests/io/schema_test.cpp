@@ -50,7 +50,7 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
                  "heading_deg": 3, "albedo": [0, 0.5, 1] },
     "balloons": [{ "latitude_deg": 1, "longitude_deg": 2, "altitude_m": 3, "radius_m": 4,
                    "color": [0, 0.5, 1], "opacity": 0.5 }],
-    "effects": { "light_shafts": "auto" } })");
+    "stars": { "sidereal_hours": 3 }, "effects": { "light_shafts": "auto" } })");
   Parameters mars;
   ASSERT_EQ(findPreset("mars", &mars), Status::Ok);
   const Json air = Json::parse(formatAtmosphere(mars));
@@ -149,12 +149,13 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
       compare(changed);
     }
   }
-  for (const char* object : {"sun", "camera", "ground", "terrain", "effects"}) {
+  for (const char* object : {"sun", "camera", "ground", "terrain", "stars", "effects"}) {
     for (const char* key :
          {"elevation_deg", "azimuth_deg",      "disc_radius_deg", "latitude_deg", "altitude_m",
           "pitch_deg",     "projection",       "fov_deg",         "height_m",     "light_shafts",
           "height_map",    "meters_per_pixel", "meters_per_unit", "height_scale", "base_m",
-          "fade_m",        "longitude_deg",    "heading_deg",     "albedo",       "albedo_map"}) {
+          "fade_m",        "longitude_deg",    "heading_deg",     "albedo",       "albedo_map",
+          "sidereal_hours"}) {
       for (const Json& value : values) {
         Json changed = good;
         changed[object][key] = value;

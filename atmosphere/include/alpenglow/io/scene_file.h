@@ -61,6 +61,11 @@ struct SceneBalloon {
   double opacity = 1.0;             ///< Share of what is behind that it hides.
 };
 
+/// The night sky, where a program draws one.
+struct SceneStars {
+  double siderealHours = 0.0;  ///< Sidereal time of longitude 0: any number; 24 turn them once.
+};
+
 /// How light shafts are drawn.
 enum class SceneShafts : uint32_t {
   Auto,   ///< The program's choice; none where there is no terrain.
@@ -97,6 +102,7 @@ struct Scene {
   std::string albedoMap;  ///< A path that can be opened from here; empty: the uniform albedo.
   std::optional<SceneTerrain> terrain;
   std::vector<SceneBalloon> balloons;
+  std::optional<SceneStars> stars;         ///< None: a sky without.
   SceneShafts shafts = SceneShafts::Auto;  ///< Off, too, where effects.light_shafts is.
   uint32_t shaftSamples = 32;              ///< Along a ray, of SceneShafts::March.
   uint32_t width = 1024;

@@ -1,4 +1,4 @@
-#include "sample_scenes.h"
+#include "sample_files.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -25,16 +25,17 @@ std::vector<fs::path> dataFolders() {
 
 }  // namespace
 
-std::string findScene(const std::string& nameOrPath) {
+std::string findSample(const std::string& kind, const std::string& nameOrPath) {
   std::error_code code;
   if (!nameOrPath.empty() && nameOrPath.find('/') == std::string::npos) {
     for (const fs::path& folder : dataFolders()) {
-      const fs::path path = folder / "scenes" / (nameOrPath + ".json");
+      const fs::path path = folder / kind / (nameOrPath + ".json");
       if (fs::is_regular_file(path, code)) return path.lexically_normal().string();
     }
   }
   if (!fs::exists(nameOrPath, code)) {
-    throw Failure("There is no sample scene and no file named '" + nameOrPath + "'.");
+    throw Failure("There is no sample " + kind.substr(0, kind.size() - 1) + " and no file named '" +
+                  nameOrPath + "'.");
   }
   return nameOrPath;
 }

@@ -1,0 +1,58 @@
+// Walk files (docs/schema/walk.schema.json): a scene whose camera, sun, air, exposure and stars
+// move from key to key, with captions. Programs play them or render them frame by frame.
+#pragma once
+
+#include <alpenglow/io/scene_file.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace alpenglow::io {
+
+/// How a walk comes to a key from the one before.
+enum class WalkMove : uint32_t {
+  Smooth,  ///< Without jerks; at rest at the first key, the last, and on both sides of a cut.
+  Linear,  ///< At one speed.
+  Cut,     ///< Not at all: the one before stays until this one's time.
+};
+
+struct WalkKey {
+  double time_s = 0.0;
+  std::string caption;  ///< Of the time from here to the next key.
+  WalkMove move = WalkMove::Smooth;
+  Scene scene;
+};
+
+struct Walk {
+  std::string title;
+  double framesPerSecond = 24.0;
+  /// At least one; the first is at 0, each later than the one before. Their scenes differ in
+  /// atmosphere, sun, camera, exposure and stars alone.
+  std::vector<WalkKey> keys;
+};
+
+/// Most frames of a walk, and keys.
+inline constexpr uint32_t kMaxWalkFrames = 1'000'000;
+inline constexpr uint32_t kMaxWalkKeys = 10'000;
+
+/// Reads and checks everything; paths in the file are relative to it. A key has all that it doesn't
+/// give from the one before.
+Result<Walk> readWalk(const std::string& path);
+/// As readWalk, for text; `folder` is where its paths start.
+Result<Walk> parseWalk(const std::string& text, const std::string& name, const std::string& folder);
+
+/// Frames 0 to frameCount - 1, the first at 0 seconds, the last not after the last key.
+uint32_t frameCount(const Walk& walk);
+double timeOfFrame(const Walk& walk, uint32_t frame);
+
+/// The last key that is not after this time; the first for times before it.
+const WalkKey& keyAt(const Walk& walk, double time_s);
+
+/// The scene at a time: at a key's time the key's own, before the first and after the last theirs.
+/// Between two keys places lie on the great circle between theirs, altitude h runs in
+/// log(1 m + h), exposure, fov and an orthographic height in their logarithms, angles the shorter
+/// way round, and everything else, the numbers of an atmosphere too, as it is.
+Scene sceneAt(const Walk& walk, double time_s);
+
+}  // namespace alpenglow::io

@@ -1,0 +1,71 @@
+#include "walk_frames.h"
+
+#include <alpenglow/io/atmosphere_file.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "scene_plan.h"
+
+namespace alpenglow::cli {
+namespace {
+
+// Options and solver are the same for all of a walk, so that only these follow the air.
+bool sameShape(const TableDesc& a, const TableDesc& b) {
+  return std::memcmp(&a.moments, &b.moments, sizeof a.moments) == 0;
+}
+
+}  // namespace
+
+WalkFrames::WalkFrames(WalkParts parts, const io::Scene& first, TableRequest request)
+    : parts_(std::move(parts)),
+      target_(createPictureTarget(parts_.session, first.width, first.height)),
+      request_(std::move(request)),
+      air_(first.atmosphere) {}
+
+void WalkFrames::useTables(const io::Scene& scene) {
+  const bool changed = !io::firstDifference(air_, scene.atmosphere).empty();
+  if (ready_ && !changed) return;
+  if (changed) {
+    air_ = scene.atmosphere;
+    request_ = requestTables(*parts_.tables, air_, &scene);
+  }
+  if (ready_ && !sameShape(ready_->desc, request_.desc)) painter_.reset();
+  ready_.reset();  // Before there are others: they may be large.
+  ready_ = obtainTables(parts_.session, air_, std::move(request_));
+}
+
+void WalkFrames::usePainter(const io::Scene& scene) {
+  const Projection projection = samples::projectionOf(scene.camera);
+  if (projection_ == projection && painter_) return;
+  painter_.reset();
+  const Plan plan = planOf(scene);
+  if ((scene.terrain || !scene.balloons.empty()) && projection_ != projection) {
+    scenery_.reset();
+    scenery_.emplace(parts_.session, scene, *parts_.files, ready_->desc, parts_.shafts, plan);
+  }
+  projection_ = projection;
+  painter_.emplace(parts_.session, scene, parts_.albedo, *ready_, plan,
+                   scenery_ ? &*scenery_ : nullptr);
+}
+
+// Of a camera and a sun that may go anywhere, with tables as they are.
+Plan WalkFrames::planOf(const io::Scene& scene) const {
+  Needs needs;
+  needs.projection = samples::projectionOf(scene.camera);
+  needs.seen = kSeenSky | kSeenGround | kSeenSpace | kSeenSun;
+  if (scene.terrain) needs.seen |= kSeenTerrain;
+  needs.sunDiscRadius = std::max(scene.sun.discRadius, 1e-3);
+  needs.occluders = parts_.shafts.has_value();
+  for (uint32_t i = 0; i < kEffectCount; ++i)
+    if ((kTableEffects & (1u << i)) != 0) needs.effects[i] = Force::On;
+  return planNeeds(scene, needs, ready_->desc);
+}
+
+io::LinearImage WalkFrames::draw(const io::Scene& scene) {
+  useTables(scene);
+  usePainter(scene);
+  return painter_->draw(scene, ready_->tables.get(), target_);
+}
+
+}  // namespace alpenglow::cli
