@@ -16,7 +16,7 @@ install(EXPORT AlpenglowTargets NAMESPACE Alpenglow:: DESTINATION "${package}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/atmosphere/include/alpenglow"
                   "${PROJECT_SOURCE_DIR}/engine/headless/include/alpenglow"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h"
-        PATTERN "io" EXCLUDE PATTERN "cost.h" EXCLUDE)  # the room cost serves the program alone
+        PATTERN "io" EXCLUDE)
 install(DIRECTORY "${ALPENGLOW_GLSL_SOURCE_DIR}/alpenglow" "${ALPENGLOW_GLSL_SOURCE_DIR}/physics"
         DESTINATION "${share}/glsl" FILES_MATCHING PATTERN "*.glsl")
 

@@ -224,8 +224,8 @@ std::optional<SceneStars> readStars(JsonErrors* errors, ObjectReader* reader) {
 
 Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& folder) {
   ObjectReader reader(errors, value, "", "",
-                      {"atmosphere", "sun", "camera", "ground", "terrain", "balloons", "stars", "size",
-                       "exposure", "tone_map", "model", "model_samples", "solver", "orders",
+                      {"atmosphere", "sun", "camera", "ground", "terrain", "balloons", "stars",
+                       "size", "exposure", "tone_map", "model", "model_samples", "solver", "orders",
                        "quality", "shafts", "shaft_samples", "effects", "needs"});
   Scene scene;
   const Json& atmosphere = reader.required("atmosphere");
