@@ -66,7 +66,7 @@ Status checkCombination(const engine::Device& device, const TableDesc& desc) {
       {anyGiven(desc.sizes, &TableSizes::transmittanceMu), !moments && !model, "TableSizes"},
       {desc.orders != 0, !model, "orders"},
       {desc.keepOrders, !model, "keepOrders"},
-      {desc.without != 0, moments, "effects that it is without"},
+      {desc.without != 0, moments, "TableDesc::without"},
       {desc.samples != 0, defaultSamples(desc.solver) != 0, "samples"}};
   for (const auto& choice : choices) {
     if (!choice.given || choice.allowed) continue;
