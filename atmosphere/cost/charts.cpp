@@ -229,7 +229,7 @@ class Canvas {
         }
       }
       taken.push_back(best);
-      color({1.0, 1.0, 1.0}, 0.8);
+      color({1.0, 1.0, 1.0});
       cairo_rectangle(c_, best.x0 - 1.0, best.y0 + 1.0, best.x1 - best.x0 + 2.0, best.y1 - best.y0);
       cairo_fill(c_);
       color(rgbOf(colorOf(p.family)));

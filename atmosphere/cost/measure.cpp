@@ -15,6 +15,7 @@
 
 #include "atmosphere/cost/bench.h"
 #include "atmosphere/cost/configurations.h"
+#include "atmosphere/cost/difference.h"
 #include "atmosphere/cost/shared_exponent.h"
 
 namespace alpenglow::cost {
@@ -81,6 +82,7 @@ class Sweep {
         evening_(std::move(evening)),
         bench_(options.device, {options.width, options.height}, options.validation) {}
 
+  /// A failure of one setting is its row's note: it takes no others with it.
   Row measure(const Configuration& configuration);
   std::vector<Comparison> compare(const std::vector<Configuration>& models);
   Bench& bench() { return bench_; }
@@ -89,7 +91,8 @@ class Sweep {
   TablesPointer bakeTimed(const Configuration& configuration, Row* row);
   TablesPointer rounded(Tables* tables, const Configuration& configuration);
   void timeFrames(View* view, const Drawn& drawn, const Configuration& configuration, Row* row);
-  io::LinearImage picture(const Configuration& model, const Look& look);
+  void fill(const Configuration& configuration, Row* row);
+  std::vector<io::LinearImage> pictures(const Configuration& model);
 
   const Options& options_;
   Truth all_, evening_;
@@ -157,15 +160,27 @@ void Sweep::timeFrames(View* view, const Drawn& drawn, const Configuration& conf
 }
 
 Row Sweep::measure(const Configuration& configuration) {
-  Row row;
-  row.sweep = configuration.sweep;
-  row.name = configuration.name;
-  row.family = configuration.family;
-  row.detail = configuration.detail;
+  Row empty;
+  empty.sweep = configuration.sweep;
+  empty.name = configuration.name;
+  empty.family = configuration.family;
+  empty.detail = configuration.detail;
+  try {
+    Row row = empty;
+    fill(configuration, &row);
+    return row;
+  } catch (const Failure& failure) {
+    empty.note = failure.what();
+    return empty;
+  }
+}
+
+void Sweep::fill(const Configuration& configuration, Row* filled) {
+  Row& row = *filled;
   bench_.renew();
   const Truth& truth = configuration.onlySun_deg != 0.0 ? evening_ : all_;
   TablesPointer tables = bakeTimed(configuration, &row);
-  if (tables == nullptr) return row;
+  if (tables == nullptr) return;
   if (const char* limit = modelLimit(configuration.desc.solver); *limit != '\0') {
     row.note += (row.note.empty() ? "" : "; ") + std::string(limit);
   }
@@ -188,39 +203,23 @@ Row Sweep::measure(const Configuration& configuration) {
   // Whatever was needed once has been freed with its frame.
   row.bytes = bench_.resources().bytes;
   row.peakBytes = bench_.resources().peakBytes;
-  return row;
 }
 
-io::LinearImage Sweep::picture(const Configuration& model, const Look& look) {
+// Of every scene, from one bake.
+std::vector<io::LinearImage> Sweep::pictures(const Configuration& model) {
   bench_.renew();
   double seconds = 0.0;
   const TablesPointer tables = bench_.bake(all_.set.parameters, model.desc, &seconds);
   if (tables == nullptr) throw Failure(bench_.refusal());
   const Drawn drawn{tables.get(), model.desc, model.sliced, 0};
   const ViewPointer view = bench_.view(drawn);
-  SkyDraw draw = drawOfView(all_.set.parameters, look.altitude_m, look.sun, look.azimuth,
-                            look.pitch, look.fov, kPicture);
-  draw.sun.discRadius = 0.2667 * std::numbers::pi / 180.0;
-  bench_.frame(view.get(), drawn, draw);
-  return bench_.read(kPicture);
-}
-
-/// Blue where the model is darker, red where it is brighter, full at a factor of 2; white: equal.
-io::ByteImage differenceOf(const io::LinearImage& image, const io::LinearImage& finest) {
-  io::ByteImage result{image.width, image.height, std::vector<uint8_t>(image.pixels.size())};
-  float brightest = 0.0f;
-  for (const float value : finest.pixels) brightest = std::max(brightest, value);
-  const float floor = 1e-4f * std::min(brightest, 1e3f);
-  for (size_t i = 0; i < image.pixels.size(); i += 3) {
-    const auto luminance = [i](const io::LinearImage& of) {
-      return of.pixels[i] * 0.2126f + of.pixels[i + 1] * 0.7152f + of.pixels[i + 2] * 0.0722f;
-    };
-    const float a = luminance(image) + floor, b = luminance(finest) + floor;
-    const float off = std::clamp(std::log2(a / b), -1.0f, 1.0f);
-    const auto byte = [](float share) { return static_cast<uint8_t>(255.0f * share + 0.5f); };
-    result.pixels[i] = byte(off < 0.0f ? 1.0f + 0.87f * off : 1.0f - 0.16f * off);
-    result.pixels[i + 1] = byte(1.0f - 0.75f * std::abs(off));
-    result.pixels[i + 2] = byte(off > 0.0f ? 1.0f - 0.87f * off : 1.0f + 0.16f * off);
+  std::vector<io::LinearImage> result;
+  for (const Look& look : kScenes) {
+    SkyDraw draw = drawOfView(all_.set.parameters, look.altitude_m, look.sun, look.azimuth,
+                              look.pitch, look.fov, kPicture);
+    draw.sun.discRadius = 0.2667 * std::numbers::pi / 180.0;
+    bench_.frame(view.get(), drawn, draw);
+    result.push_back(bench_.read(kPicture));
   }
   return result;
 }
@@ -230,19 +229,24 @@ std::vector<Comparison> Sweep::compare(const std::vector<Configuration>& models)
   finest.sliced = false;
   finest.desc.quality = options_.quick ? Quality::Medium : Quality::High;
   std::vector<Comparison> result;
-  for (const Look& look : kScenes) {
-    const io::LinearImage best = picture(finest, look);
-    const double exposure = io::automaticExposure(best);
+  try {
+    const std::vector<io::LinearImage> best = pictures(finest);
     for (const Configuration& model : models) {
+      std::vector<io::LinearImage> images;
       try {
-        const io::LinearImage image = picture(model, look);
-        result.push_back({look.scene, model.name,
-                          io::toneMapped(image, exposure, io::ToneMap::Filmic),
-                          differenceOf(image, best)});
+        images = pictures(model);
       } catch (const Failure&) {
-        // Its row says why.
+        continue;  // Its row says why.
+      }
+      for (size_t i = 0; i < images.size(); ++i) {
+        const double exposure = io::automaticExposure(best[i]);
+        result.push_back({kScenes[i].scene, model.name,
+                          io::toneMapped(images[i], exposure, io::ToneMap::Filmic),
+                          differenceOf(images[i], best[i])});
       }
     }
+  } catch (const Failure&) {
+    // No pictures: the figures stand without them.
   }
   return result;
 }
@@ -303,6 +307,8 @@ Report measureAll(const Options& options, Truth all, Truth evening) {
     if (!more) throw Failure(more.error);
     report.rows.insert(report.rows.end(), more->begin(), more->end());
   }
+  if (!list.empty() && std::ranges::none_of(report.rows, &Row::measured))
+    throw Failure(report.rows.front().note);
   Bench& bench = sweep.bench();
   bench.checkValidation();
   report.device = bench.device().name();
