@@ -80,7 +80,10 @@ class Sweep {
       : options_(options),
         all_(std::move(all)),
         evening_(std::move(evening)),
-        bench_(options.device, {options.width, options.height}, options.validation) {}
+        bench_(options.device,
+               // Timed frames and pictures both fit in.
+               {std::max(options.width, kPicture.width), std::max(options.height, kPicture.height)},
+               options.validation) {}
 
   /// A failure of one setting is its row's note: it takes no others with it.
   Row measure(const Configuration& configuration);
