@@ -85,21 +85,29 @@ class Sweep {
                {std::max(options.width, kPicture.width), std::max(options.height, kPicture.height)},
                options.validation) {}
 
-  /// A failure of one setting is its row's note: it takes no others with it.
-  Row measure(const Configuration& configuration);
-  std::vector<Comparison> compare(const std::vector<Configuration>& models);
+  /// A failure of one setting is its row's note: it takes no others with it. `pictured`: its
+  /// pictures are kept for compare.
+  Row measure(const Configuration& configuration, bool pictured);
+  /// Pictures of the models that were measured, against the finest of the moment solver.
+  std::vector<Comparison> compare();
   Bench& bench() { return bench_; }
 
  private:
   TablesPointer bakeTimed(const Configuration& configuration, Row* row);
   TablesPointer rounded(Tables* tables, const Configuration& configuration);
   void timeFrames(View* view, const Drawn& drawn, const Configuration& configuration, Row* row);
-  void fill(const Configuration& configuration, Row* row);
-  std::vector<io::LinearImage> pictures(const Configuration& model);
+  void fill(const Configuration& configuration, bool pictured, Row* row);
+  std::vector<io::LinearImage> pictures(View* view, const Drawn& drawn);
+  std::vector<io::LinearImage> finestPictures();
 
   const Options& options_;
   Truth all_, evening_;
   Bench bench_;
+  struct Pictured {
+    std::string model;
+    std::vector<io::LinearImage> images;  ///< One for each of kScenes.
+  };
+  std::vector<Pictured> pictured_;
 };
 
 TablesPointer Sweep::bakeTimed(const Configuration& configuration, Row* row) {
@@ -162,7 +170,7 @@ void Sweep::timeFrames(View* view, const Drawn& drawn, const Configuration& conf
   }
 }
 
-Row Sweep::measure(const Configuration& configuration) {
+Row Sweep::measure(const Configuration& configuration, bool pictured) {
   Row empty;
   empty.sweep = configuration.sweep;
   empty.name = configuration.name;
@@ -170,7 +178,7 @@ Row Sweep::measure(const Configuration& configuration) {
   empty.detail = configuration.detail;
   try {
     Row row = empty;
-    fill(configuration, &row);
+    fill(configuration, pictured, &row);
     return row;
   } catch (const Failure& failure) {
     empty.note = failure.what();
@@ -178,7 +186,7 @@ Row Sweep::measure(const Configuration& configuration) {
   }
 }
 
-void Sweep::fill(const Configuration& configuration, Row* filled) {
+void Sweep::fill(const Configuration& configuration, bool pictured, Row* filled) {
   Row& row = *filled;
   bench_.renew();
   const Truth& truth = configuration.onlySun_deg != 0.0 ? evening_ : all_;
@@ -199,6 +207,7 @@ void Sweep::fill(const Configuration& configuration, Row* filled) {
         errorsOf(truth, bench_.radiance(view.get(), drawn, truth.set.parameters, truth.rays));
     // Tables for some suns say nothing of others.
     for (uint32_t band = configuration.bands; band < kBandCount; ++band) row.errors[band] = {};
+    if (pictured) pictured_.push_back({configuration.name, pictures(view.get(), drawn)});
   }
   drawn.viewWithout = configuration.viewWithout;
   const ViewPointer view = bench_.view(drawn);
@@ -208,48 +217,47 @@ void Sweep::fill(const Configuration& configuration, Row* filled) {
   row.peakBytes = bench_.resources().peakBytes;
 }
 
-// Of every scene, from one bake.
-std::vector<io::LinearImage> Sweep::pictures(const Configuration& model) {
-  bench_.renew();
-  double seconds = 0.0;
-  const TablesPointer tables = bench_.bake(all_.set.parameters, model.desc, &seconds);
-  if (tables == nullptr) throw Failure(bench_.refusal());
-  const Drawn drawn{tables.get(), model.desc, model.sliced, 0};
-  const ViewPointer view = bench_.view(drawn);
+std::vector<io::LinearImage> Sweep::pictures(View* view, const Drawn& drawn) {
   std::vector<io::LinearImage> result;
   for (const Look& look : kScenes) {
     SkyDraw draw = drawOfView(all_.set.parameters, look.altitude_m, look.sun, look.azimuth,
                               look.pitch, look.fov, kPicture);
     draw.sun.discRadius = 0.2667 * std::numbers::pi / 180.0;
-    bench_.frame(view.get(), drawn, draw);
+    bench_.frame(view, drawn, draw);
     result.push_back(bench_.read(kPicture));
   }
   return result;
 }
 
-std::vector<Comparison> Sweep::compare(const std::vector<Configuration>& models) {
-  Configuration finest = models.front();
-  finest.sliced = false;
-  finest.desc.quality = options_.quick ? Quality::Medium : Quality::High;
+std::vector<io::LinearImage> Sweep::finestPictures() {
+  bench_.renew();
+  TableDesc desc;
+  desc.quality = options_.quick ? Quality::Medium : Quality::High;
+  double seconds = 0.0;
+  const TablesPointer tables = bench_.bake(all_.set.parameters, desc, &seconds);
+  if (tables == nullptr) throw Failure(bench_.refusal());
+  const Drawn drawn{tables.get(), desc, false, 0};
+  const ViewPointer view = bench_.view(drawn);
+  return pictures(view.get(), drawn);
+}
+
+std::vector<Comparison> Sweep::compare() {
   std::vector<Comparison> result;
+  if (pictured_.empty()) return result;
+  std::vector<io::LinearImage> finest;
   try {
-    const std::vector<io::LinearImage> best = pictures(finest);
-    for (const Configuration& model : models) {
-      std::vector<io::LinearImage> images;
-      try {
-        images = pictures(model);
-      } catch (const Failure&) {
-        continue;  // Its row says why.
-      }
-      for (size_t i = 0; i < images.size(); ++i) {
-        const double exposure = io::automaticExposure(best[i]);
-        result.push_back({kScenes[i].scene, model.name,
-                          io::toneMapped(images[i], exposure, io::ToneMap::Filmic),
-                          differenceOf(images[i], best[i])});
-      }
-    }
+    finest = finestPictures();
   } catch (const Failure&) {
-    // No pictures: the figures stand without them.
+    return result;  // The figures stand without pictures, and the page says that there are none.
+  }
+  for (const Pictured& pictured : pictured_) {
+    for (size_t i = 0; i < finest.size(); ++i) {
+      const io::LinearImage& image = pictured.images[i];
+      result.push_back(
+          {kScenes[i].scene, pictured.model,
+           io::toneMapped(image, io::automaticExposure(finest[i]), io::ToneMap::Filmic),
+           differenceOf(image, finest[i])});
+    }
   }
   return result;
 }
@@ -277,15 +285,12 @@ std::string machine() {
          system.sysname + " " + system.release;
 }
 
-/// What the pictures compare: one of each family of the sweep of models.
-std::vector<Configuration> familiesOf(const std::vector<Configuration>& all) {
-  std::vector<Configuration> models;
-  for (const Configuration& c : all) {
-    const bool known = std::ranges::any_of(
-        models, [&](const Configuration& other) { return other.family == c.family; });
-    if (c.sweep == "model" && !known) models.push_back(c);
-  }
-  return models;
+/// What the pictures compare: the first of each family of the sweep of models.
+bool isPictured(const std::vector<Configuration>& list, size_t i) {
+  const auto first = std::ranges::find_if(list, [&](const Configuration& c) {
+    return c.sweep == "model" && c.family == list[i].family;
+  });
+  return first == list.begin() + static_cast<ptrdiff_t>(i);
 }
 
 Report measureAll(const Options& options, Truth all, Truth evening) {
@@ -299,11 +304,10 @@ Report measureAll(const Options& options, Truth all, Truth evening) {
   for (size_t i = 0; i < list.size(); ++i) {
     if (options.progress)
       options.progress(static_cast<double>(i) / steps, list[i].sweep + ": " + list[i].name);
-    report.rows.push_back(sweep.measure(list[i]));
+    report.rows.push_back(sweep.measure(list[i], isPictured(list, i)));
   }
   if (options.progress) options.progress((steps - 2.0) / steps, "pictures");
-  if (const auto models = familiesOf(list); !models.empty())
-    report.comparisons = sweep.compare(models);
+  report.comparisons = sweep.compare();
   if (options.progress) options.progress((steps - 1.0) / steps, "light shafts");
   if (options.more) {
     auto more = options.more();

@@ -171,9 +171,9 @@ bool tablesReady(const Tables* tables);
 /// moment solver 1 optical depth, 2 moments, 3 and 4 source; of the standard one 1 T, 2 E, 3 S, 4
 /// single Mie (S again when packed); of the simpler models 1 T, then what docs/models.md says. A
 /// binding whose table TableDesc::without leaves out holds the optical depths: a shader must not
-/// declare it (ALPENGLOW_WITHOUT_SOURCE and ALPENGLOW_WITHOUT_MULTIPLE of alpenglow/atmosphere.glsl).
-/// For compute and fragment stages. The images are in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL once
-/// ready. Owned by the context and the tables.
+/// declare it (ALPENGLOW_WITHOUT_SOURCE and ALPENGLOW_WITHOUT_MULTIPLE of
+/// alpenglow/atmosphere.glsl). For compute and fragment stages. The images are in
+/// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL once ready. Owned by the context and the tables.
 VkDescriptorSetLayout tableSetLayout(const Context* context);
 VkDescriptorSet tableSet(const Tables* tables);
 
