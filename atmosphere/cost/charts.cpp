@@ -229,7 +229,7 @@ class Canvas {
         }
       }
       taken.push_back(best);
-      color({1.0, 1.0, 1.0}, 0.8);
+      color({1.0, 1.0, 1.0});
       cairo_rectangle(c_, best.x0 - 1.0, best.y0 + 1.0, best.x1 - best.x0 + 2.0, best.y1 - best.y0);
       cairo_fill(c_);
       color(rgbOf(colorOf(p.family)));
@@ -251,15 +251,26 @@ class Canvas {
     for (const ChartPoint& p : curve.points) dot(p, 3.5);
   }
 
+  /// At the top, left or right: where it hides fewer points.
   void legend() {
     font(12.0);
     double y = kTop + 12.0;
     double widest = 0.0;
     for (const ChartLine& line : chart_.lines) widest = std::max(widest, width(line.name));
-    const double x = kLeft + 14.0;
+    const double high = 18.0 * static_cast<double>(chart_.lines.size()) + 8.0;
+    const auto hidden = [&](double left) {
+      size_t count = 0;
+      for (const ChartLine& line : chart_.lines)
+        for (const ChartPoint& p : line.points)
+          if (p.y > 0.0 && px(p.x) > left - 20.0 && px(p.x) < left + widest + 64.0 &&
+              py(p.y) < y + high)
+            ++count;
+      return count;
+    };
+    const double left = kLeft + 6.0, right = kWidth - kRight - widest - 50.0;
+    const double x = (hidden(right) < hidden(left) ? right : left) + 8.0;
     color({1.0, 1.0, 1.0}, 0.85);
-    cairo_rectangle(c_, x - 8.0, y - 14.0, widest + 44.0,
-                    18.0 * static_cast<double>(chart_.lines.size()) + 8.0);
+    cairo_rectangle(c_, x - 8.0, y - 14.0, widest + 44.0, high);
     cairo_fill(c_);
     for (const ChartLine& entry : chart_.lines) {
       color(rgbOf(colorOf(entry.family)));

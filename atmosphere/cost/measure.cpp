@@ -15,6 +15,7 @@
 
 #include "atmosphere/cost/bench.h"
 #include "atmosphere/cost/configurations.h"
+#include "atmosphere/cost/difference.h"
 #include "atmosphere/cost/shared_exponent.h"
 
 namespace alpenglow::cost {
@@ -79,21 +80,34 @@ class Sweep {
       : options_(options),
         all_(std::move(all)),
         evening_(std::move(evening)),
-        bench_(options.device, {options.width, options.height}, options.validation) {}
+        bench_(options.device,
+               // Timed frames and pictures both fit in.
+               {std::max(options.width, kPicture.width), std::max(options.height, kPicture.height)},
+               options.validation) {}
 
-  Row measure(const Configuration& configuration);
-  std::vector<Comparison> compare(const std::vector<Configuration>& models);
+  /// A failure of one setting is its row's note: it takes no others with it. `pictured`: its
+  /// pictures are kept for compare.
+  Row measure(const Configuration& configuration, bool pictured);
+  /// Pictures of the models that were measured, against the finest of the moment solver.
+  std::vector<Comparison> compare();
   Bench& bench() { return bench_; }
 
  private:
   TablesPointer bakeTimed(const Configuration& configuration, Row* row);
   TablesPointer rounded(Tables* tables, const Configuration& configuration);
   void timeFrames(View* view, const Drawn& drawn, const Configuration& configuration, Row* row);
-  io::LinearImage picture(const Configuration& model, const Look& look);
+  void fill(const Configuration& configuration, bool pictured, Row* row);
+  std::vector<io::LinearImage> pictures(View* view, const Drawn& drawn);
+  std::vector<io::LinearImage> finestPictures();
 
   const Options& options_;
   Truth all_, evening_;
   Bench bench_;
+  struct Pictured {
+    std::string model;
+    std::vector<io::LinearImage> images;  ///< One for each of kScenes.
+  };
+  std::vector<Pictured> pictured_;
 };
 
 TablesPointer Sweep::bakeTimed(const Configuration& configuration, Row* row) {
@@ -156,16 +170,28 @@ void Sweep::timeFrames(View* view, const Drawn& drawn, const Configuration& conf
   }
 }
 
-Row Sweep::measure(const Configuration& configuration) {
-  Row row;
-  row.sweep = configuration.sweep;
-  row.name = configuration.name;
-  row.family = configuration.family;
-  row.detail = configuration.detail;
+Row Sweep::measure(const Configuration& configuration, bool pictured) {
+  Row empty;
+  empty.sweep = configuration.sweep;
+  empty.name = configuration.name;
+  empty.family = configuration.family;
+  empty.detail = configuration.detail;
+  try {
+    Row row = empty;
+    fill(configuration, pictured, &row);
+    return row;
+  } catch (const Failure& failure) {
+    empty.note = failure.what();
+    return empty;
+  }
+}
+
+void Sweep::fill(const Configuration& configuration, bool pictured, Row* filled) {
+  Row& row = *filled;
   bench_.renew();
   const Truth& truth = configuration.onlySun_deg != 0.0 ? evening_ : all_;
   TablesPointer tables = bakeTimed(configuration, &row);
-  if (tables == nullptr) return row;
+  if (tables == nullptr) return;
   if (const char* limit = modelLimit(configuration.desc.solver); *limit != '\0') {
     row.note += (row.note.empty() ? "" : "; ") + std::string(limit);
   }
@@ -181,6 +207,7 @@ Row Sweep::measure(const Configuration& configuration) {
         errorsOf(truth, bench_.radiance(view.get(), drawn, truth.set.parameters, truth.rays));
     // Tables for some suns say nothing of others.
     for (uint32_t band = configuration.bands; band < kBandCount; ++band) row.errors[band] = {};
+    if (pictured) pictured_.push_back({configuration.name, pictures(view.get(), drawn)});
   }
   drawn.viewWithout = configuration.viewWithout;
   const ViewPointer view = bench_.view(drawn);
@@ -188,60 +215,48 @@ Row Sweep::measure(const Configuration& configuration) {
   // Whatever was needed once has been freed with its frame.
   row.bytes = bench_.resources().bytes;
   row.peakBytes = bench_.resources().peakBytes;
-  return row;
 }
 
-io::LinearImage Sweep::picture(const Configuration& model, const Look& look) {
-  bench_.renew();
-  double seconds = 0.0;
-  const TablesPointer tables = bench_.bake(all_.set.parameters, model.desc, &seconds);
-  if (tables == nullptr) throw Failure(bench_.refusal());
-  const Drawn drawn{tables.get(), model.desc, model.sliced, 0};
-  const ViewPointer view = bench_.view(drawn);
-  SkyDraw draw = drawOfView(all_.set.parameters, look.altitude_m, look.sun, look.azimuth,
-                            look.pitch, look.fov, kPicture);
-  draw.sun.discRadius = 0.2667 * std::numbers::pi / 180.0;
-  bench_.frame(view.get(), drawn, draw);
-  return bench_.read(kPicture);
-}
-
-/// Blue where the model is darker, red where it is brighter, full at a factor of 2; white: equal.
-io::ByteImage differenceOf(const io::LinearImage& image, const io::LinearImage& finest) {
-  io::ByteImage result{image.width, image.height, std::vector<uint8_t>(image.pixels.size())};
-  float brightest = 0.0f;
-  for (const float value : finest.pixels) brightest = std::max(brightest, value);
-  const float floor = 1e-4f * std::min(brightest, 1e3f);
-  for (size_t i = 0; i < image.pixels.size(); i += 3) {
-    const auto luminance = [i](const io::LinearImage& of) {
-      return of.pixels[i] * 0.2126f + of.pixels[i + 1] * 0.7152f + of.pixels[i + 2] * 0.0722f;
-    };
-    const float a = luminance(image) + floor, b = luminance(finest) + floor;
-    const float off = std::clamp(std::log2(a / b), -1.0f, 1.0f);
-    const auto byte = [](float share) { return static_cast<uint8_t>(255.0f * share + 0.5f); };
-    result.pixels[i] = byte(off < 0.0f ? 1.0f + 0.87f * off : 1.0f - 0.16f * off);
-    result.pixels[i + 1] = byte(1.0f - 0.75f * std::abs(off));
-    result.pixels[i + 2] = byte(off > 0.0f ? 1.0f - 0.87f * off : 1.0f + 0.16f * off);
+std::vector<io::LinearImage> Sweep::pictures(View* view, const Drawn& drawn) {
+  std::vector<io::LinearImage> result;
+  for (const Look& look : kScenes) {
+    SkyDraw draw = drawOfView(all_.set.parameters, look.altitude_m, look.sun, look.azimuth,
+                              look.pitch, look.fov, kPicture);
+    draw.sun.discRadius = 0.2667 * std::numbers::pi / 180.0;
+    bench_.frame(view, drawn, draw);
+    result.push_back(bench_.read(kPicture));
   }
   return result;
 }
 
-std::vector<Comparison> Sweep::compare(const std::vector<Configuration>& models) {
-  Configuration finest = models.front();
-  finest.sliced = false;
-  finest.desc.quality = options_.quick ? Quality::Medium : Quality::High;
+std::vector<io::LinearImage> Sweep::finestPictures() {
+  bench_.renew();
+  TableDesc desc;
+  desc.quality = options_.quick ? Quality::Medium : Quality::High;
+  double seconds = 0.0;
+  const TablesPointer tables = bench_.bake(all_.set.parameters, desc, &seconds);
+  if (tables == nullptr) throw Failure(bench_.refusal());
+  const Drawn drawn{tables.get(), desc, false, 0};
+  const ViewPointer view = bench_.view(drawn);
+  return pictures(view.get(), drawn);
+}
+
+std::vector<Comparison> Sweep::compare() {
   std::vector<Comparison> result;
-  for (const Look& look : kScenes) {
-    const io::LinearImage best = picture(finest, look);
-    const double exposure = io::automaticExposure(best);
-    for (const Configuration& model : models) {
-      try {
-        const io::LinearImage image = picture(model, look);
-        result.push_back({look.scene, model.name,
-                          io::toneMapped(image, exposure, io::ToneMap::Filmic),
-                          differenceOf(image, best)});
-      } catch (const Failure&) {
-        // Its row says why.
-      }
+  if (pictured_.empty()) return result;
+  std::vector<io::LinearImage> finest;
+  try {
+    finest = finestPictures();
+  } catch (const Failure&) {
+    return result;  // The figures stand without pictures, and the page says that there are none.
+  }
+  for (const Pictured& pictured : pictured_) {
+    for (size_t i = 0; i < finest.size(); ++i) {
+      const io::LinearImage& image = pictured.images[i];
+      result.push_back(
+          {kScenes[i].scene, pictured.model,
+           io::toneMapped(image, io::automaticExposure(finest[i]), io::ToneMap::Filmic),
+           differenceOf(image, finest[i])});
     }
   }
   return result;
@@ -270,15 +285,12 @@ std::string machine() {
          system.sysname + " " + system.release;
 }
 
-/// What the pictures compare: one of each family of the sweep of models.
-std::vector<Configuration> familiesOf(const std::vector<Configuration>& all) {
-  std::vector<Configuration> models;
-  for (const Configuration& c : all) {
-    const bool known = std::ranges::any_of(
-        models, [&](const Configuration& other) { return other.family == c.family; });
-    if (c.sweep == "model" && !known) models.push_back(c);
-  }
-  return models;
+/// What the pictures compare: the first of each family of the sweep of models.
+bool isPictured(const std::vector<Configuration>& list, size_t i) {
+  const auto first = std::ranges::find_if(list, [&](const Configuration& c) {
+    return c.sweep == "model" && c.family == list[i].family;
+  });
+  return first == list.begin() + static_cast<ptrdiff_t>(i);
 }
 
 Report measureAll(const Options& options, Truth all, Truth evening) {
@@ -292,17 +304,18 @@ Report measureAll(const Options& options, Truth all, Truth evening) {
   for (size_t i = 0; i < list.size(); ++i) {
     if (options.progress)
       options.progress(static_cast<double>(i) / steps, list[i].sweep + ": " + list[i].name);
-    report.rows.push_back(sweep.measure(list[i]));
+    report.rows.push_back(sweep.measure(list[i], isPictured(list, i)));
   }
   if (options.progress) options.progress((steps - 2.0) / steps, "pictures");
-  if (const auto models = familiesOf(list); !models.empty())
-    report.comparisons = sweep.compare(models);
+  report.comparisons = sweep.compare();
   if (options.progress) options.progress((steps - 1.0) / steps, "light shafts");
   if (options.more) {
     auto more = options.more();
     if (!more) throw Failure(more.error);
     report.rows.insert(report.rows.end(), more->begin(), more->end());
   }
+  if (!list.empty() && std::ranges::none_of(report.rows, &Row::measured))
+    throw Failure(report.rows.front().note);
   Bench& bench = sweep.bench();
   bench.checkValidation();
   report.device = bench.device().name();

@@ -68,16 +68,18 @@ io::Done writeText(const fs::path& path, const std::string& text) {
 }
 
 io::Done makeFolder(const fs::path& path) {
-  std::error_code code;
-  fs::create_directories(path, code);
-  if (fs::is_directory(path, code)) return {};
+  std::error_code made, ignored;
+  fs::create_directories(path, made);
+  if (fs::is_directory(path, ignored)) return {};
   return {"The folder '" + path.string() + "' can't be made: " +
-          (fs::exists(path, code) ? "a file is in its place." : code.message() + ".")};
+          (fs::exists(path, ignored) ? "a file is in its place." : made.message() + ".")};
 }
 
 }  // namespace
 
 io::Done prepareFolder(const std::string& folder) {
+  // Its own sentence first: of a file in its place, which has no folder in it either.
+  if (io::Done done = makeFolder(folder); !done) return done;
   return makeFolder(fs::path(folder) / "pictures");
 }
 

@@ -112,7 +112,9 @@ TEST(Report, SaysWhyItCanNotBeWrittenOrMeasured) {
   ASSERT_TRUE(io::writeFile(file, "x", 1));
   const io::Done done = prepareFolder(file);
   EXPECT_FALSE(done);
-  EXPECT_NE(done.error.find(file), std::string::npos) << done.error;
+  EXPECT_EQ(done.error, "The folder '" + file + "' can't be made: a file is in its place.");
+  const io::Done below = prepareFolder(file + "/below");
+  EXPECT_EQ(below.error, "The folder '" + file + "/below' can't be made: Not a directory.");
   Options options = smallOptions();
   options.truthFolder = folder.path();
   const auto none = measure(options);
