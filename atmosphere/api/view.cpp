@@ -2,6 +2,8 @@
 #include <alpenglow/view.h>
 
 #include "atmosphere/api/context_impl.h"
+#include "atmosphere/model/sentence.h"
+#include "atmosphere/model/solvers.h"
 #include "atmosphere/shafts/shaft_pass.h"
 #include "atmosphere/sky/sky_pass.h"
 
@@ -20,13 +22,18 @@ Status checkShafts(const Context& context, const ViewDesc& desc) {
                     shafts.without == desc.without;
   if (same && desc.solver == Solver::Moments && &desc.shafts->resources() == context.bake)
     return Status::Ok;
+  model::Sentence why;
+  if (desc.solver != Solver::Moments) {
+    why << "are for a view of Solver::" << solverEnumerator(desc.solver);
+  } else {
+    why << (&desc.shafts->resources() != context.bake ? "are of another context"
+                                                      : "were made for another picture");
+  }
   return context.device->fail(
       Status::InvalidArgument, VK_SUCCESS,
       "ViewDesc::shafts %s, but a view needs shafts of its own context, made for its sceneDepth, "
       "depth, projection and without, and Solver::Moments.",
-      desc.solver != Solver::Moments              ? "are for a view of another solver"
-      : &desc.shafts->resources() != context.bake ? "are of another context"
-                                                  : "were made for another picture");
+      why.text());
 }
 
 /// What the sky room may know of them.
