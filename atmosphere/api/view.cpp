@@ -2,6 +2,7 @@
 #include <alpenglow/view.h>
 
 #include "atmosphere/api/context_impl.h"
+#include "atmosphere/model/solvers.h"
 #include "atmosphere/shafts/shaft_pass.h"
 #include "atmosphere/sky/sky_pass.h"
 
@@ -21,11 +22,12 @@ Status checkShafts(const Context& context, const ViewDesc& desc) {
     return Status::Ok;
   return context.device->fail(
       Status::InvalidArgument, VK_SUCCESS,
-      "ViewDesc::shafts %s, but a view needs shafts of its own context, made for its sceneDepth, "
+      "ViewDesc::shafts %s%s, but a view needs shafts of its own context, made for its sceneDepth, "
       "depth and projection, and Solver::Moments.",
-      desc.solver != Solver::Moments              ? "are for a view of another solver"
+      desc.solver != Solver::Moments              ? "are for a view of Solver::"
       : &desc.shafts->resources() != context.bake ? "are of another context"
-                                                  : "were made for another picture");
+                                                  : "were made for another picture",
+      desc.solver != Solver::Moments ? solverEnumerator(desc.solver) : "");
 }
 
 /// What the sky room may know of them.

@@ -51,8 +51,8 @@ TEST_F(TableErrorsTest, WhatBelongsToTheOtherSolverIsRefused) {
   desc.moments.viewPanels = 4;
   expectRefused(desc, "Solver::Standard and MomentSettings");
   desc = {};
-  desc.solver = static_cast<Solver>(2);
-  expectRefused(desc, "solver 2");
+  desc.solver = static_cast<Solver>(6);
+  expectRefused(desc, "solver 6");
   desc = {};
   desc.quality = static_cast<Quality>(6);
   expectRefused(desc, "quality 6");
