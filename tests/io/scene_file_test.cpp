@@ -125,7 +125,7 @@ TEST(SceneFile, RefusesWrongValuesByName) {
 TEST(SceneFile, FeaturesOfLaterVersionsAreRefusedWithWhatExists) {
   expectMentions(errorOf(with("model", "\"preetham\"")), {"'model'", "\"bruneton\""});
   expectMentions(errorOf(with("shafts", "\"volumes\"")), {"'shafts'", "\"off\""});
-  expectMentions(errorOf(with("effects", "{\"light_shafts\": \"on\"}")),
+  expectMentions(errorOf(with("effects", "{\"light_shafts\": \"perhaps\"}")),
                  {"'effects.light_shafts'", "\"on\""});
 }
 
