@@ -68,8 +68,8 @@ struct ViewDesc {
   /// which are refused. Needs skySlice.
   bool alwaysSliced = false;
   /// Tables whose shape a sky slice takes; null: the view has none. With a slice, recordSkySlice
-  /// once a frame makes a pixel of recordSky much cheaper; of Solver::Standard and Hillaire, for
-  /// cameras inside the atmosphere only; the other simpler models have none, and draw as without.
+  /// once a frame makes a pixel of recordSky much cheaper; of Solver::Standard, for cameras inside
+  /// the atmosphere only.
   const Tables* skySlice = nullptr;
   /// For recordAir; a null view: the view has no aerial perspective. Needs one sample, a colour
   /// format that blends, and no fisheye. Make another view when the depth image is made anew.
@@ -117,11 +117,11 @@ struct SkyDraw {
 /// recordSky of the same tables, camera position and sun direction that follows in recording order
 /// reads it; any other reads the tables. InvalidArgument without ViewDesc::skySlice, and for tables
 /// of another shape. Nothing is recorded for orthographic cameras, whose rays have an observer
-/// each, with Solver::Standard and Hillaire for a camera outside the atmosphere, and never with the
-/// other simpler models; the picture is that of the tables then. With Moments it is interpolated
-/// between the rays of the slice, 64 x 160 inside the atmosphere and 128 x 160 outside (fewer where
-/// ViewDesc::skySlice is of a level below medium), and off by what docs/stability.md says.
-/// Clobbers: compute pipeline, sets 0 and 1, push constants.
+/// each, and, with Solver::Standard, for a camera outside the atmosphere; the picture is that of
+/// the tables then. With Moments it is interpolated between the rays of the slice, 64 x 160 inside
+/// the atmosphere and 128 x 160 outside (fewer where ViewDesc::skySlice is of a level below
+/// medium), and off by what docs/stability.md says. Clobbers: compute pipeline, sets 0 and 1, push
+/// constants.
 Status recordSkySlice(View* view, VkCommandBuffer commands, const FrameInfo& frame,
                       const Tables* tables, const SkyDraw& draw);
 
