@@ -114,7 +114,10 @@ TEST_F(Moments, ATableFileGivesTheSamePicture) {
   const io::Result<io::LinearImage> a = io::readExr(folder_ / "a.exr");
   const io::Result<io::LinearImage> b = io::readExr(folder_ / "b.exr");
   ASSERT_TRUE(a && b);
-  EXPECT_EQ(a->pixels, b->pixels);
+  // The first's tables are planned for its sun alone, within the plan's error of 1 %.
+  ASSERT_EQ(a->pixels.size(), b->pixels.size());
+  for (size_t i = 0; i < a->pixels.size(); ++i)
+    ASSERT_NEAR(a->pixels[i], b->pixels[i], 0.01f * b->pixels[i] + 1e-6f) << i;
   float brightest = 0.0f;
   for (const float value : a->pixels) {
     ASSERT_TRUE(std::isfinite(value) && value >= 0.0f) << value;

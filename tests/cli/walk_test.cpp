@@ -71,7 +71,9 @@ TEST_F(Walks, FramesAreThePicturesOfTheirScenes) {
     const std::string single = folder_ / ("single." + format);
     expectGood(renderOf(walk(kThreeKeys, kStart + scenery), {"--format-image", format}));
     for (int i = 0; i < 3; ++i) {
-      const std::string text = "{" + (kThreeScenes[i] + scenery) + R"(, "size": [40, 24]})";
+      // Planned for all that a walk may come to, as its frames are.
+      const std::string text = "{" + (kThreeScenes[i] + scenery) + R"(, "size": [40, 24], "needs":
+          {"altitude_m": [0, 1e9], "sun_elevation_deg": [-90, 90], "exposure": 1e12}})";
       expectGood(joined({"render", folder_.write("s.json", text), "-o", single}, smallMoments()));
       const std::string frame = folder_ / ("out/frame_0000" + std::to_string(i) + "." + format);
       if (format == "png") {
