@@ -28,7 +28,7 @@ Device::Impl::~Impl() {
   vk().DestroyDevice(device, nullptr);
 }
 
-bool Device::Impl::createDevice(std::string* error) {
+bool Device::Impl::createDevice(const DeviceOptions& options, std::string* error) {
   const float priority = 1.0f;
   auto queueInfo = structure<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
   queueInfo.queueFamilyIndex = selection.queueFamily;
@@ -46,6 +46,12 @@ bool Device::Impl::createDevice(std::string* error) {
   info.pNext = &features;
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queueInfo;
+  std::vector<const char*> extensions;
+  for (const std::string& extension : options.deviceExtensions) {
+    extensions.push_back(extension.c_str());
+  }
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   const VkResult result = vk().CreateDevice(selection.physicalDevice, &info, nullptr, &device);
   if (result < 0) {
     device = VK_NULL_HANDLE;
@@ -94,7 +100,7 @@ Device::~Device() = default;
 std::unique_ptr<Device> Device::create(const DeviceOptions& options, std::string* error) {
   std::unique_ptr<Device> device(new Device());
   Impl& impl = *device->impl_;
-  impl.instance = Instance::create(options.validation, options.onValidationMessage, error);
+  impl.instance = Instance::create(options, error);
   if (impl.instance == nullptr) return nullptr;
   if (!selectDevice(*impl.instance, options, &impl.selection, error)) return nullptr;
   VkPhysicalDeviceProperties properties = {};
@@ -102,7 +108,7 @@ std::unique_ptr<Device> Device::create(const DeviceOptions& options, std::string
   impl.vk().GetPhysicalDeviceMemoryProperties(impl.selection.physicalDevice, &impl.memory);
   impl.name = properties.deviceName;
   impl.timestampPeriod = properties.limits.timestampPeriod;
-  if (!impl.createDevice(error) || !impl.createCommands(error)) return nullptr;
+  if (!impl.createDevice(options, error) || !impl.createCommands(error)) return nullptr;
   return device;
 }
 
@@ -200,7 +206,7 @@ double Device::Impl::gpuSeconds() const {
 }
 
 std::vector<std::string> listDevices(std::string* error) {
-  const std::unique_ptr<Instance> instance = Instance::create(false, nullptr, error);
+  const std::unique_ptr<Instance> instance = Instance::create({}, error);
   if (instance == nullptr) return {};
   std::vector<std::string> names;
   for (VkPhysicalDevice device : instance->physicalDevices(error)) {

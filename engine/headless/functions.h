@@ -11,7 +11,8 @@ namespace alpenglow::headless {
   X(EnumerateInstanceVersion)
 
 #define ALPENGLOW_HEADLESS_INSTANCE_FUNCTIONS(X) \
-  X(CreateDevice) X(DestroyInstance) X(EnumeratePhysicalDevices) X(GetDeviceProcAddr) \
+  X(CreateDevice) X(DestroyInstance) X(EnumerateDeviceExtensionProperties) \
+  X(EnumeratePhysicalDevices) X(GetDeviceProcAddr) \
   X(GetPhysicalDeviceFeatures2) X(GetPhysicalDeviceMemoryProperties) \
   X(GetPhysicalDeviceProperties) X(GetPhysicalDeviceQueueFamilyProperties)
 

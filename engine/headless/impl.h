@@ -27,7 +27,7 @@ struct Device::Impl {
   ~Impl();  ///< Destroys what was made, in whatever state creation stopped.
 
   const Functions& vk() const { return instance->vk(); }
-  bool createDevice(std::string* error);
+  bool createDevice(const DeviceOptions& options, std::string* error);
   bool createCommands(std::string* error);
   bool submitAndWait(std::string* error, Timing* timing);
   double gpuSeconds() const;

@@ -69,12 +69,10 @@ void MessageLog::clear() {
   messages_.clear();
 }
 
-std::unique_ptr<Instance> Instance::create(bool validation,
-                                           std::function<void(std::string_view)> listener,
-                                           std::string* error) {
-  std::unique_ptr<Instance> instance(new Instance(validation, std::move(listener)));
+std::unique_ptr<Instance> Instance::create(const DeviceOptions& options, std::string* error) {
+  std::unique_ptr<Instance> instance(new Instance(options));
   if (!instance->openLoader(error)) return nullptr;
-  if (validation && !instance->checkValidationLayer(error)) return nullptr;
+  if (options.validation && !instance->checkValidationLayer(error)) return nullptr;
   if (!instance->createInstance(error)) return nullptr;
   return instance;
 }
@@ -133,17 +131,19 @@ bool Instance::createInstance(std::string* error) {
   features.enabledValidationFeatureCount = 1;
   features.pEnabledValidationFeatures = enabled;
   const char* layers[] = {kLayer};
-  const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME,
-                              VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
+  std::vector<const char*> extensions;
+  for (const std::string& extension : extensions_) extensions.push_back(extension.c_str());
   auto info = structure<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
   info.pApplicationInfo = &application;
   if (validation_) {
     info.pNext = &features;
     info.enabledLayerCount = 1;
     info.ppEnabledLayerNames = layers;
-    info.enabledExtensionCount = 2;
-    info.ppEnabledExtensionNames = extensions;
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
   }
+  info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+  info.ppEnabledExtensionNames = extensions.data();
   const VkResult result = vk_.CreateInstance(&info, nullptr, &instance_);
   if (result < 0) {
     instance_ = VK_NULL_HANDLE;

@@ -1,6 +1,8 @@
 // The loader, a VkInstance on it, and what the validation layers say.
 #pragma once
 
+#include <alpenglow/headless.h>
+
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -31,9 +33,7 @@ class MessageLog {
 class Instance {
  public:
   /// Null on failure, with one sentence in `error`.
-  static std::unique_ptr<Instance> create(bool validation,
-                                          std::function<void(std::string_view)> listener,
-                                          std::string* error);
+  static std::unique_ptr<Instance> create(const DeviceOptions& options, std::string* error);
   ~Instance();
   Instance(const Instance&) = delete;
   Instance& operator=(const Instance&) = delete;
@@ -49,13 +49,16 @@ class Instance {
   std::string nameOf(VkPhysicalDevice physicalDevice) const;
 
  private:
-  Instance(bool validation, std::function<void(std::string_view)> listener)
-      : validation_(validation), log_(std::move(listener)) {}
+  explicit Instance(const DeviceOptions& options)
+      : validation_(options.validation),
+        extensions_(options.instanceExtensions),
+        log_(options.onValidationMessage) {}
   bool openLoader(std::string* error);
   bool checkValidationLayer(std::string* error);
   bool createInstance(std::string* error);
 
   bool validation_;
+  std::vector<std::string> extensions_;
   MessageLog log_;
   void* library_ = nullptr;
   PFN_vkGetInstanceProcAddr getInstanceProcAddr_ = nullptr;

@@ -70,7 +70,7 @@ Status defaultRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInst
       missing);
 }
 
-bool findQueueFamily(Instance& instance, Selection* selection) {
+bool findQueueFamily(Instance& instance, const DeviceOptions& options, Selection* selection) {
   const auto getFamilies = instance.vk().GetPhysicalDeviceQueueFamilyProperties;
   uint32_t count = 0;
   getFamilies(selection->physicalDevice, &count, nullptr);
@@ -78,13 +78,33 @@ bool findQueueFamily(Instance& instance, Selection* selection) {
   getFamilies(selection->physicalDevice, &count, families.data());
   constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
   for (uint32_t i = 0; i < count; ++i) {
-    if ((families[i].queueFlags & kNeeded) == kNeeded && families[i].queueCount > 0) {
+    if ((families[i].queueFlags & kNeeded) == kNeeded && families[i].queueCount > 0 &&
+        (!options.queueFamily ||
+         options.queueFamily(instance.handle(), selection->physicalDevice, i))) {
       selection->queueFamily = i;
       selection->timestampBits = families[i].timestampValidBits;
       return true;
     }
   }
   return false;
+}
+
+/// Empty when the device has all extensions, else the first that it lacks.
+std::string missingExtension(Instance& instance, VkPhysicalDevice physicalDevice,
+                             const std::vector<std::string>& wanted) {
+  const auto getExtensions = instance.vk().EnumerateDeviceExtensionProperties;
+  uint32_t count = 0;
+  getExtensions(physicalDevice, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  getExtensions(physicalDevice, nullptr, &count, extensions.data());
+  for (const std::string& name : wanted) {
+    if (std::none_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& e) {
+          return name == static_cast<const char*>(e.extensionName);
+        })) {
+      return name;
+    }
+  }
+  return "";
 }
 
 /// Both are enabled wherever the device has them: the library's users may need them without asking.
@@ -103,11 +123,18 @@ void addUsualFeatures(Instance& instance, VkPhysicalDevice physicalDevice, Requi
   enabled->dynamicRendering |= features13.dynamicRendering != VK_FALSE;
 }
 
-bool suits(Instance& instance, const RequirementsFn& ask, Selection* selection,
-           std::string* missing) {
+bool suits(Instance& instance, const DeviceOptions& options, const RequirementsFn& ask,
+           Selection* selection, std::string* missing) {
   const std::string name = instance.nameOf(selection->physicalDevice);
-  if (!findQueueFamily(instance, selection)) {
-    *missing = "The device \"" + name + "\" has no queue for both graphics and compute.";
+  if (!findQueueFamily(instance, options, selection)) {
+    *missing = "The device \"" + name + "\" has no queue for both graphics and compute" +
+               (options.queueFamily ? " that will do for the program's window." : ".");
+    return false;
+  }
+  const std::string lacked =
+      missingExtension(instance, selection->physicalDevice, options.deviceExtensions);
+  if (!lacked.empty()) {
+    *missing = "The device \"" + name + "\" lacks the extension " + lacked + ".";
     return false;
   }
   const Status status = ask(instance.getInstanceProcAddr(), instance.handle(),
@@ -134,7 +161,7 @@ bool selectDevice(Instance& instance, const DeviceOptions& options, Selection* o
     Selection selection;
     selection.physicalDevice = device;
     std::string missing;
-    if (suits(instance, ask, &selection, &missing)) {
+    if (suits(instance, options, ask, &selection, &missing)) {
       *out = selection;
       return true;
     }

@@ -2,10 +2,10 @@
 #include <alpenglow/cost.h>
 
 #include "commands.h"
+#include "common/sample_files.h"
 #include "cost_shafts.h"
 #include "failure.h"
 #include "progress.h"
-#include "sample_files.h"
 
 namespace alpenglow::cli {
 
@@ -13,7 +13,7 @@ void runCost(const CostArguments& arguments) {
   cost::Options options;
   options.quick = arguments.quick;
   options.device = arguments.device;
-  options.truthFolder = findData("truth", ALPENGLOW_TRUTH_DIR);
+  options.truthFolder = samples::findData("truth", ALPENGLOW_TRUTH_DIR);
   options.command = "alpenglow cost -o " + arguments.folder + (arguments.quick ? " --quick" : "");
   // A file in the folder's place is said before minutes of work.
   check(cost::prepareFolder(arguments.folder));

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/sample_files.h"
+#include "common/scene_plan.h"
 #include "failure.h"
 #include "picture.h"
-#include "sample_files.h"
-#include "scene_plan.h"
 
 namespace alpenglow::cli {
 namespace {
@@ -57,7 +57,7 @@ Measured draw(io::Scene scene, const Method& method, const std::string& device, 
   scene.shaftSamples = std::max(method.samples, 1u);
   RenderArguments arguments;
   ShaftChoice choice = chooseShafts(arguments, scene, Solver::Moments);
-  const Plan plan = planScene(scene, {});
+  const Plan plan = samples::planScene(scene, {});
   const SceneryFiles files = readScenery(scene);
   Session session(
       device,
@@ -131,7 +131,7 @@ cost::Row rowOf(const Method& method, const io::Scene& scene, const Measured& me
 io::Result<std::vector<cost::Row>> measureShafts(const std::string& device, bool quick) {
   using Rows = io::Result<std::vector<cost::Row>>;
   try {
-    io::Scene scene = take(io::readScene(findSample("scenes", kScene)));
+    io::Scene scene = take(io::readScene(samples::findSample("scenes", kScene)));
     scene.width = quick ? 320 : 640;
     scene.height = quick ? 180 : 360;
     scene.albedoMap.clear();

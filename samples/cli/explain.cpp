@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "common/sample_files.h"
+#include "common/scene_plan.h"
 #include "failure.h"
-#include "sample_files.h"
-#include "scene_plan.h"
 
 namespace alpenglow::cli {
 namespace {
@@ -129,8 +129,8 @@ Json planJson(const Plan& plan) {
 }  // namespace
 
 void runExplain(const ExplainArguments& arguments) {
-  const io::Scene scene = take(io::readScene(findSample("scenes", arguments.scene)));
-  const Plan plan = planScene(scene, tablesOf(scene));
+  const io::Scene scene = take(io::readScene(samples::findSample("scenes", arguments.scene)));
+  const Plan plan = samples::planScene(scene, samples::tablesOf(scene));
   if (arguments.json) {
     std::cout << planJson(plan).dump(2) << '\n';
     return;

@@ -1,6 +1,6 @@
 #include "picture.h"
 
-#include "scene_plan.h"
+#include "common/scene_plan.h"
 
 namespace alpenglow::cli {
 Painter::Painter(Session* session, const io::Scene& scene, const io::AlbedoMap* albedo,
@@ -49,7 +49,7 @@ void Painter::drawPlain(const Tables* tables, const SkyDraw& draw, const headles
 
 io::LinearImage Painter::draw(const io::Scene& scene, const Tables* tables,
                               const PictureTarget& target) {
-  const SkyDraw draw = describeDraw(scene);
+  const SkyDraw draw = samples::describeDraw(scene);
   RecordFn stars;
   if (scene.stars) {
     if (!stars_) {

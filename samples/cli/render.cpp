@@ -2,11 +2,11 @@
 #include <alpenglow/io/tone_map.h>
 
 #include "commands.h"
+#include "common/sample_files.h"
+#include "common/scene_plan.h"
 #include "failure.h"
 #include "outputs.h"
 #include "picture.h"
-#include "sample_files.h"
-#include "scene_plan.h"
 #include "tables.h"
 
 namespace alpenglow::cli {
@@ -34,16 +34,16 @@ Plan planPicture(const RenderArguments& arguments, io::Scene scene, const ShaftC
                  TableRequest* request) {
   scene.shafts = shafts.method;  // Options beat the scene.
   if (request->file) {
-    Needs needs = needsOf(scene);
+    Needs needs = samples::needsOf(scene);
     for (uint32_t i = 0; i < kEffectCount; ++i) {
       const auto effect = static_cast<Effect>(i);
       if ((kTableEffects & effectBit(effect)) == 0) continue;
       needs.effects[i] = hasEffect(request->desc.without, effect) ? Force::On : Force::Off;
     }
-    return planNeeds(scene, needs, request->desc);
+    return samples::planNeeds(scene, needs, request->desc);
   }
   const TableDesc base = describeBase(arguments.tables, scene);
-  const Plan plan = planScene(scene, base);
+  const Plan plan = samples::planScene(scene, base);
   request->desc = plan.tableDesc;
   return plan;
 }
@@ -74,7 +74,7 @@ void runRender(const RenderArguments& arguments) {
   if (!arguments.walk.empty()) return runWalk(arguments);
   const std::string& output = arguments.run.output;
   checkEnding(output, {".exr", ".png"});
-  io::Scene scene = take(io::readScene(findSample("scenes", arguments.scene)));
+  io::Scene scene = take(io::readScene(samples::findSample("scenes", arguments.scene)));
   checkScenery(scene);
   if (!arguments.size.empty()) parsePictureSize(arguments.size, &scene.width, &scene.height);
   std::optional<io::AlbedoMap> albedo;

@@ -92,7 +92,8 @@ samples::Gpu Session::gpu() {
       return std::string(pass);
     });
   };
-  return {device_.get(), runPass, [this](Status status) { check(status); }};
+  return {device_.get(), runPass, [this](Status status) { check(status); },
+          [this] { return device_->frame(); }};
 }
 
 void Session::book(const std::string& pass, const ResourceReport& before,

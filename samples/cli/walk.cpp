@@ -7,10 +7,10 @@
 #include <filesystem>
 
 #include "commands.h"
+#include "common/sample_files.h"
 #include "failure.h"
 #include "frame_list.h"
 #include "progress.h"
-#include "sample_files.h"
 #include "walk_frames.h"
 
 namespace alpenglow::cli {
@@ -73,7 +73,7 @@ CapabilityFlags needsOf(const io::Scene& scene, const TableRequest& request,
 }  // namespace
 
 void runWalk(const RenderArguments& arguments) {
-  io::Walk walk = take(io::readWalk(findSample("walks", arguments.walk)));
+  io::Walk walk = take(io::readWalk(samples::findSample("walks", arguments.walk)));
   io::Scene& unmoved = walk.keys.front().scene;
   if (!arguments.size.empty()) parsePictureSize(arguments.size, &unmoved.width, &unmoved.height);
   const uint32_t count = io::frameCount(walk);

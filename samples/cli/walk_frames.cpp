@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "scene_plan.h"
+#include "common/scene_plan.h"
 
 namespace alpenglow::cli {
 namespace {
@@ -59,7 +59,7 @@ Plan WalkFrames::planOf(const io::Scene& scene) const {
   needs.occluders = parts_.shafts.has_value();
   for (uint32_t i = 0; i < kEffectCount; ++i)
     if ((kTableEffects & (1u << i)) != 0) needs.effects[i] = Force::On;
-  return planNeeds(scene, needs, ready_->desc);
+  return samples::planNeeds(scene, needs, ready_->desc);
 }
 
 io::LinearImage WalkFrames::draw(const io::Scene& scene) {

@@ -56,7 +56,7 @@ enum class Blending {
   Add,    ///< Light is added to it.
 };
 
-/// A pipeline for dynamic rendering, with viewport and scissor set while recording.
+/// A pipeline with viewport and scissor set while recording.
 struct PipelineDesc {
   Code vertex;
   Code fragment;  ///< Empty: depth only.
@@ -65,6 +65,7 @@ struct PipelineDesc {
   std::span<const VkVertexInputAttributeDescription> attributes;
   VkFormat color = VK_FORMAT_UNDEFINED;
   VkFormat depth = VK_FORMAT_UNDEFINED;
+  VkRenderPass renderPass = VK_NULL_HANDLE;  ///< Null: dynamic rendering.
   bool writesDepth = false;  ///< Nearest wins; else drawn where not farther than what is there.
   Blending blending = Blending::None;
   const VkSpecializationInfo* fragmentConstants = nullptr;
@@ -80,11 +81,15 @@ class Gpu {
   /// Throws unless the status is Ok, with the sentence that the library gave its context.
   using CheckFn = std::function<void(Status)>;
 
+  /// Numbers of frames as the program counts them.
+  using FrameFn = std::function<FrameInfo()>;
+
   /// All outlive it.
-  Gpu(headless::Device* device, RunFn run, CheckFn check)
-      : device_(device), run_(std::move(run)), check_(std::move(check)) {}
+  Gpu(headless::Device* device, RunFn run, CheckFn check, FrameFn frame)
+      : device_(device), run_(std::move(run)), check_(std::move(check)), frame_(std::move(frame)) {}
 
   headless::Device& device() const { return *device_; }
+  FrameInfo frame() const { return frame_(); }
 
   /// A device function by the type of its pointer: function<PFN_vkCmdDraw>("vkCmdDraw").
   template <typename Function>
@@ -135,6 +140,7 @@ class Gpu {
   headless::Device* device_;
   RunFn run_;
   CheckFn check_;
+  FrameFn frame_;
 };
 
 /// Uses of images, for barriers.

@@ -111,7 +111,8 @@ Owned<VkPipeline> Gpu::pipeline(const PipelineDesc& desc) const {
   const FixedState state(desc);
   VkGraphicsPipelineCreateInfo info = {};
   info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
-  info.pNext = &state.rendering;
+  info.pNext = desc.renderPass == VK_NULL_HANDLE ? &state.rendering : nullptr;
+  info.renderPass = desc.renderPass;
   info.stageCount = desc.fragment.empty() ? 1 : 2;
   info.pStages = stages;
   info.pVertexInputState = &state.input;

@@ -1,5 +1,6 @@
 // A Vulkan device without a window, Alpenglow::headless: makes an instance and a device of its own,
-// submits and waits. For samples, tests and command-line programs; a game engine has its own.
+// submits and waits. For samples, tests and command-line programs; a game engine has its own. A
+// program with a window names the extensions that it needs and submits its frames itself.
 // The Vulkan loader is opened at run time (dlopen), so nothing here links to it.
 #pragma once
 
@@ -21,6 +22,10 @@ struct DeviceOptions {
   std::string select;  ///< Empty: the first suitable; digits: the index; else part of its name.
   bool validation = false;      ///< VK_LAYER_KHRONOS_validation with synchronisation checks.
   RequirementsFn requirements;  ///< Null: Vulkan 1.3 with synchronization2 and dynamicRendering.
+  /// Enabled besides, all of them; the device is one that has them.
+  std::vector<std::string> instanceExtensions, deviceExtensions;
+  /// Whether a queue family that has graphics and compute will do; null: any.
+  std::function<bool(VkInstance, VkPhysicalDevice, uint32_t family)> queueFamily;
   /// Called with each validation message too, from whichever thread causes it, until the device's
   /// destructor has returned: how objects that outlive the device are heard of. May be null.
   std::function<void(std::string_view)> onValidationMessage;

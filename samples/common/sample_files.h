@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace alpenglow::cli {
+namespace alpenglow::samples {
 
 /// The path of a scene or walk from the command line: a sample's if one has this name, else the
 /// name itself, if there is such a file. `kind` is "scenes" or "walks", the folder of these, which
@@ -13,4 +13,4 @@ std::string findSample(const std::string& kind, const std::string& nameOrPath);
 /// A folder of data by its name, beside the sample scenes, or `otherwise`.
 std::string findData(const std::string& name, const std::string& otherwise);
 
-}  // namespace alpenglow::cli
+}  // namespace alpenglow::samples

@@ -6,7 +6,7 @@
 #include "failure.h"
 #include "terrain/landscape.h"
 
-namespace alpenglow::cli {
+namespace alpenglow::samples {
 namespace {
 
 // The picture's half diagonal, where each ray of an orthographic camera has an observer of its own.
@@ -71,7 +71,7 @@ SkyDraw describeDraw(const io::Scene& scene) {
 
 Needs needsOf(const io::Scene& scene) {
   Needs needs;
-  needs.projection = samples::projectionOf(scene.camera);
+  needs.projection = projectionOf(scene.camera);
   describeCamera(scene, &needs);
   describeSun(scene, &needs);
   needs.seen = kSeenSky | kSeenGround | kSeenSpace | kSeenSun;
@@ -111,4 +111,4 @@ TableDesc tablesOf(const io::Scene& scene) {
   return desc;
 }
 
-}  // namespace alpenglow::cli
+}  // namespace alpenglow::samples

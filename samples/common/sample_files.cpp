@@ -6,7 +6,7 @@
 
 #include "failure.h"
 
-namespace alpenglow::cli {
+namespace alpenglow::samples {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,4 +47,4 @@ std::string findData(const std::string& name, const std::string& otherwise) {
   return otherwise;
 }
 
-}  // namespace alpenglow::cli
+}  // namespace alpenglow::samples

@@ -3,7 +3,7 @@
 
 #include <alpenglow/io/scene_file.h>
 
-namespace alpenglow::cli {
+namespace alpenglow::samples {
 
 /// Camera, sun and viewport of a scene's picture.
 SkyDraw describeDraw(const io::Scene& scene);
@@ -21,4 +21,4 @@ Plan planNeeds(const io::Scene& scene, const Needs& needs, const TableDesc& base
 /// The description that a scene's plan starts from: what the scene says of its tables.
 TableDesc tablesOf(const io::Scene& scene);
 
-}  // namespace alpenglow::cli
+}  // namespace alpenglow::samples

@@ -2,7 +2,7 @@
 
 #include <alpenglow/io/file.h>
 
-namespace alpenglow::cli {
+namespace alpenglow::samples {
 
 void check(const io::Done& done) {
   if (!done) throw Failure(done.error);
@@ -12,4 +12,4 @@ void writeText(const std::string& path, const std::string& text) {
   check(io::writeFile(path, text.data(), text.size()));
 }
 
-}  // namespace alpenglow::cli
+}  // namespace alpenglow::samples
