@@ -3,6 +3,8 @@
 
 option(ALPENGLOW_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(ALPENGLOW_BUILD_SAMPLES "Build the program alpenglow (needs io)" ${PROJECT_IS_TOP_LEVEL})
+option(ALPENGLOW_BUILD_VIEWER "Build the program alpenglow-view (needs the samples, GLFW and Dear ImGui)"
+       ${ALPENGLOW_BUILD_SAMPLES})
 option(ALPENGLOW_BUILD_IO "Build Alpenglow::io (needs OpenImageIO and nlohmann-json)"
        ${PROJECT_IS_TOP_LEVEL})
 option(ALPENGLOW_BUILD_COST "Build Alpenglow::cost (needs io and cairo)" ${ALPENGLOW_BUILD_IO})
@@ -11,6 +13,9 @@ option(ALPENGLOW_WARNINGS_AS_ERRORS "Stop at the first warning" ${PROJECT_IS_TOP
 
 if(ALPENGLOW_BUILD_COST AND NOT ALPENGLOW_BUILD_IO)
   message(FATAL_ERROR "ALPENGLOW_BUILD_COST needs ALPENGLOW_BUILD_IO, which is off.")
+endif()
+if(ALPENGLOW_BUILD_VIEWER AND NOT ALPENGLOW_BUILD_SAMPLES)
+  message(FATAL_ERROR "ALPENGLOW_BUILD_VIEWER needs ALPENGLOW_BUILD_SAMPLES, which is off.")
 endif()
 if(ALPENGLOW_BUILD_SAMPLES AND NOT ALPENGLOW_BUILD_IO)
   message(FATAL_ERROR "ALPENGLOW_BUILD_SAMPLES needs ALPENGLOW_BUILD_IO, which is off.")

@@ -9,8 +9,11 @@ packages=(
   # what the libraries and the program use
   libvulkan-dev libglm-dev libopenimageio-dev openimageio-tools libopenexr-dev
   nlohmann-json3-dev libcli11-dev pkg-config libcairo2-dev
+  libglfw3-dev libimgui-dev
   # what the tests use: software Vulkan, its validation layers, a second loader
   libgtest-dev mesa-vulkan-drivers vulkan-validationlayers libvulkan-volk-dev
+  # what the viewer's tests use: a display without a monitor, and keys pressed on it
+  xvfb xdotool
 )
 
 if [[ "${ALPENGLOW_SKIP_PACKAGES:-}" == 1 ]]; then

@@ -112,6 +112,8 @@ std::unique_ptr<Device> Device::create(const DeviceOptions& options, std::string
   return device;
 }
 
+void Device::waitIdle() const { impl_->vk().DeviceWaitIdle(impl_->device); }
+
 PFN_vkGetInstanceProcAddr Device::getInstanceProcAddr() const {
   return impl_->instance->getInstanceProcAddr();
 }

@@ -51,11 +51,7 @@ void WalkFrames::usePainter(const io::Scene& scene) {
 
 // Of a camera and a sun that may go anywhere, with tables as they are.
 Plan WalkFrames::planOf(const io::Scene& scene) const {
-  Needs needs;
-  needs.projection = samples::projectionOf(scene.camera);
-  needs.seen = kSeenSky | kSeenGround | kSeenSpace | kSeenSun;
-  if (scene.terrain) needs.seen |= kSeenTerrain;
-  needs.sunDiscRadius = std::max(scene.sun.discRadius, 1e-3);
+  Needs needs = samples::needsOfFlight(scene);
   needs.occluders = parts_.shafts.has_value();
   for (uint32_t i = 0; i < kEffectCount; ++i)
     if ((kTableEffects & (1u << i)) != 0) needs.effects[i] = Force::On;

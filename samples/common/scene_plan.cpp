@@ -38,17 +38,17 @@ void describeSun(const io::Scene& scene, Needs* needs) {
   needs->sunFixed = needs->sunElevationFrom == needs->sunElevationTo;
 }
 
-// Terrain, balloons and stars are drawn by shaders that read every table.
+// Terrain and balloons are drawn by shaders that read every table.
 void keepTables(const io::Scene& scene, Needs* needs) {
-  if (!scene.terrain && scene.balloons.empty() && !scene.stars) return;
+  if (!scene.terrain && scene.balloons.empty()) return;
   for (uint32_t i = 0; i < kEffectCount; ++i) {
     const auto effect = static_cast<Effect>(i);
     if ((kTableEffects & effectBit(effect)) == 0) continue;
     if (needs->effects[i] == Force::Off) {
       throw Failure(
           std::string("The scene turns ") + effectName(effect) +
-          " off, but its terrain, balloons or stars are drawn with all tables: only scenes "
-          "without them can be without it.");
+          " off, but its terrain or balloons are drawn with all tables: only scenes without them "
+          "can be without it.");
     }
     needs->effects[i] = Force::On;
   }
@@ -91,6 +91,18 @@ Needs needsOf(const io::Scene& scene) {
   return needs;
 }
 
+Needs needsOfFlight(const io::Scene& scene) {
+  Needs needs;
+  needs.projection = projectionOf(scene.camera);
+  needs.seen = kSeenSky | kSeenGround | kSeenSpace | kSeenSun;
+  if (scene.terrain) needs.seen |= kSeenTerrain;
+  needs.sunDiscRadius = std::max(scene.sun.discRadius, 1e-3);
+  needs.occluders = scene.terrain.has_value() && scene.shafts != io::SceneShafts::Off;
+  std::copy_n(scene.effects, kEffectCount, needs.effects);
+  keepTables(scene, &needs);
+  return needs;
+}
+
 Plan planScene(const io::Scene& scene, const TableDesc& base) {
   return planNeeds(scene, needsOf(scene), base);
 }
@@ -106,7 +118,11 @@ Plan planNeeds(const io::Scene& scene, const Needs& needs, const TableDesc& base
 TableDesc tablesOf(const io::Scene& scene) {
   TableDesc desc;
   desc.solver = scene.solver.value_or(Solver::Moments);
-  desc.orders = scene.orders.value_or(0);
+  desc.orders = scene.orders.value_or(scene.model == io::SceneModel::Single ? 1 : 0);
+  if (const std::optional<Solver> model = io::solverOf(scene.model)) {
+    desc.solver = *model;
+    desc.samples = scene.modelSamples.value_or(0);
+  }
   if (desc.solver == Solver::Moments) desc.quality = scene.quality.value_or(Quality::Default);
   return desc;
 }

@@ -12,6 +12,9 @@ SkyDraw describeDraw(const io::Scene& scene);
 /// see.
 Needs needsOf(const io::Scene& scene);
 
+/// Those of a camera and a sun that may go anywhere.
+Needs needsOfFlight(const io::Scene& scene);
+
 /// Throws a Failure for needs that contradict themselves.
 Plan planScene(const io::Scene& scene, const TableDesc& base);
 

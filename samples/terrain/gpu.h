@@ -126,6 +126,11 @@ class Gpu {
   /// Orders memory accesses of two uses; layouts don't count.
   void barrier(VkCommandBuffer commands, const ImageState& from, const ImageState& to) const;
 
+  /// Records, submits and waits.
+  void run(const char* pass, const std::function<void(VkCommandBuffer)>& record) const {
+    run_(pass, record);
+  }
+
   /// Throws unless the library is content.
   void check(Status status) const { check_(status); }
   /// Throws unless the result is good; `what` is a function's name.

@@ -53,7 +53,7 @@ void Landscape::uploadTerrain(const io::SceneTerrain& terrain, const io::AlbedoM
   const auto filled = [&](const auto& array, VkBufferUsageFlags usage) {
     return gpu_->buffer(array.size() * sizeof array[0], usage, array.data());
   };
-  vertices_ = filled(mesh_->vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+  uploadVertices();
   indices_ = filled(mesh_->indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   sampler_ = gpu_->sampler(VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
   if (albedo != nullptr) {
@@ -63,6 +63,11 @@ void Landscape::uploadTerrain(const io::SceneTerrain& terrain, const io::AlbedoM
   float rgba[4] = {0.0f, 0.0f, 0.0f, 1.0f};  // One texel, so that one shader serves both.
   for (uint32_t i = 0; i < kSpectrumSize; ++i) rgba[i] = static_cast<float>(terrain.albedo[i]);
   albedo_ = gpu_->texel(rgba);
+}
+
+void Landscape::uploadVertices() {
+  vertices_ = gpu_->buffer(mesh_->vertices.size() * sizeof mesh_->vertices[0],
+                           VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, mesh_->vertices.data());
 }
 
 void Landscape::makeShafts(const LandscapeDesc& desc) {

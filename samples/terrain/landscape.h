@@ -46,6 +46,11 @@ class Landscape {
   Landscape& operator=(const Landscape&) = delete;
   ~Landscape();
 
+  /// Draws on a planet of these parameters from now on. Where the ground sphere has another radius
+  /// the caller has made the mesh for it and calls uploadVertices() while the device is idle.
+  void follow(const Parameters& parameters) { parameters_ = parameters; }
+  void uploadVertices();
+
   bool hasTerrain() const { return mesh_ != nullptr; }
   bool hasBalloons() const { return !balloons_.empty(); }
   Shafts* shafts() const { return shafts_; }

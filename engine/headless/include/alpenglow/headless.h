@@ -112,6 +112,8 @@ class Device {
   /// false (nothing is submitted, `error` is left to it) or Vulkan fails.
   bool run(const std::function<bool(VkCommandBuffer)>& record, std::string* error,
            Timing* timing = nullptr);
+  /// Until the device has nothing to do.
+  void waitIdle() const;
   /// Frame numbers for the library: the frame that `run` records now, or would record next, and the
   /// last one that finished.
   FrameInfo frame() const;

@@ -1,0 +1,362 @@
+#include "app.h"
+
+#include <alpenglow/io/atmosphere_file.h>
+#include <alpenglow/io/image_file.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "common/failure.h"
+#include "common/scene_plan.h"
+#include "parameters.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+namespace alpenglow::view {
+namespace {
+
+using samples::Failure;
+using std::chrono::duration;
+
+constexpr double kRestSeconds = 0.25;  // Without a change, before the picture is drawn in full.
+constexpr double kFirstUnitsPerSecond = 1e8;
+constexpr float kLeastScale = 0.25f;
+constexpr CapabilityFlags kNeeded = kCapabilityBake | kCapabilitySky;
+
+void keepError(void* user, const Diagnostic& diagnostic) {
+  if (diagnostic.severity == Severity::Error) {
+    *static_cast<std::string*>(user) = diagnostic.message;
+  }
+}
+
+// The most pixels that a window on the first monitor can have.
+VkExtent2D mostPixels(const Window& window) {
+  VkExtent2D size = window.size();
+  int count = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  for (int i = 0; i < count; ++i) {
+    const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+    if (mode == nullptr) continue;
+    size.width = std::max(size.width, static_cast<uint32_t>(mode->width));
+    size.height = std::max(size.height, static_cast<uint32_t>(mode->height));
+  }
+  return size;
+}
+
+}  // namespace
+
+Host::Host(const AppOptions& options, Window* window) {
+  headless::DeviceOptions wanted;
+  wanted.select = options.device;
+  wanted.validation = options.validation;
+  wanted.onValidationMessage = [](std::string_view message) {
+    std::fprintf(stderr, "%.*s\n", static_cast<int>(message.size()), message.data());
+  };
+  wanted.instanceExtensions = Window::instanceExtensions();
+  wanted.deviceExtensions = {VK_KHR_SWAPCHAIN_EXTENSION_NAME};
+  wanted.queueFamily = [](VkInstance instance, VkPhysicalDevice physical, uint32_t family) {
+    return glfwGetPhysicalDevicePresentationSupport(instance, physical, family) == GLFW_TRUE;
+  };
+  CapabilityFlags capabilities = kNeeded;
+  wanted.requirements = [&](PFN_vkGetInstanceProcAddr get, VkInstance instance,
+                            VkPhysicalDevice physical, Requirements* out, std::string* missing) {
+    // As much as the device has.
+    for (const CapabilityFlags wish :
+         {kCapabilityAir | kCapabilityShafts | kCapabilityShadowVolumes,
+          kCapabilityAir | kCapabilityShafts, CapabilityFlags{kCapabilityAir},
+          CapabilityFlags{0}}) {
+      capabilities = kNeeded | wish;
+      if (queryRequirements(get, instance, physical, capabilities, out, keepError, missing) ==
+          Status::Ok) {
+        return Status::Ok;
+      }
+    }
+    return Status::Unsupported;
+  };
+  std::string error;
+  device = headless::Device::create(wanted, &error);
+  if (!device) throw Failure(error);
+  gpu.emplace(
+      device.get(),
+      [this](const char*, const std::function<void(VkCommandBuffer)>& record) {
+        std::string sentence;
+        const bool good = device->run(
+            [&](VkCommandBuffer commands) {
+              record(commands);
+              return true;
+            },
+            &sentence);
+        if (!good) throw Failure(sentence);
+      },
+      [this](Status status) {
+        if (status != Status::Ok) throw Failure(lastError);
+      },
+      [this] { return presenter->numbers(); });
+  presenter.emplace(&*gpu, window, options.config.vsync);
+  ContextDesc desc = device->contextDesc();
+  desc.capabilities = capabilities;
+  desc.diagnostic = keepError;
+  desc.user = &lastError;
+  gpu->check(createContext(desc, &context));
+}
+
+Host::~Host() {
+  if (device) device->waitIdle();
+  if (context != nullptr) destroyContext(context);
+}
+
+App::App(AppOptions options)
+    : options_(std::move(options)),
+      window_(options_.config.width, options_.config.height, "Alpenglow"),
+      host_(options_, &window_),
+      interface_(&*host_.gpu, &window_, &*host_.presenter, options_.config.interfaceScale),
+      picture_(&*host_.gpu, &*host_.presenter, mostPixels(window_)),
+      timer_(&*host_.gpu),
+      stage_(&*host_.gpu, host_.context, picture_.target().extent()),
+      baker_(&*host_.gpu, host_.context),
+      panel_(&*host_.gpu, host_.context, host_.presenter->renderPass()) {
+  if (!options_.script.empty()) script_.emplace(options_.script, options_.config.bindings);
+  state_.scene = state_.start = options_.scene;
+  state_.panel = options_.config.panel;
+  stage_.load(state_.scene);
+}
+
+size_t App::run() {
+  while (!state_.quit && glfwWindowShouldClose(window_.handle()) == GLFW_FALSE) {
+    // Nothing moves: don't keep a processor busy.
+    const bool idle = settled() && !script_ && !(options_.walk && state_.playing);
+    window_.poll(idle ? 0.1 : 0.0);
+    if (script_) {
+      script_->step(&state_, {[this] { return settled(); },
+                              [this](uint32_t width, uint32_t height) {
+                                glfwSetWindowSize(window_.handle(), static_cast<int>(width),
+                                                  static_cast<int>(height));
+                              },
+                              [this](double seconds) {
+                                walkSeconds_ = seconds;
+                                state_.playing = false;
+                              },
+                              [this](const std::string& path) { report(path); }});
+      if (script_->finished()) script_.reset();
+    }
+    frame();
+  }
+  host_.device->waitIdle();
+  return host_.device->validationMessages().size();
+}
+
+void App::frame() {
+  const Clock::time_point now = Clock::now();
+  const double seconds = duration<double>(now - lastFrame_).count();
+  lastFrame_ = now;
+  control(&state_, &window_, options_.config.bindings, seconds, !Interface::wantsKeyboard(),
+          !Interface::wantsMouse());
+  followWalk(seconds);
+  Frame frame;
+  if (!host_.presenter->begin(&frame)) {
+    window_.poll(0.02);
+    return;
+  }
+  frameTimes_ms_.push_back(static_cast<float>(1e3 * seconds));
+  collect(host_.context, host_.presenter->numbers().completed);
+  timer_.begin(frame);
+  state_.scene.width = frame.size.width;
+  state_.scene.height = frame.size.height;
+  chooseExposure(frame, seconds);
+  followScene();
+  const double baked = timer_.seconds("bake");
+  if (const uint64_t units = std::exchange(unitsOfSlot_[frame.slot], 0); units > 0 && baked > 0.0) {
+    const double rate = static_cast<double>(units) / baked;
+    unitsPerSecond_ = unitsPerSecond_ == 0.0 ? rate : 0.8 * unitsPerSecond_ + 0.2 * rate;
+  }
+  if (!baker_.idle()) {
+    const double rate = unitsPerSecond_ > 0.0 ? unitsPerSecond_ : kFirstUnitsPerSecond;
+    timer_.time(frame, "bake", [&] {
+      baker_.record(frame.commands,
+                    static_cast<uint64_t>(std::max(rate * options_.config.bakeSeconds, 1.0)));
+    });
+    unitsOfSlot_[frame.slot] = baker_.unitsRecorded();
+  }
+  takeBake();
+  drawPicture(frame);
+  interface_.begin();
+  makePanel();
+  Interface::end();
+  const Tone tone = {state_.scene.exposure.value_or(exposure_),
+                     state_.scene.toneMap,
+                     {state_.balance[0], state_.balance[1], state_.balance[2]}};
+  host_.presenter->end(frame, [&] {
+    timer_.time(frame, "tone map", [&] { picture_.show(frame, drawn_, tone); });
+    timer_.time(frame, "interface", [&] { Interface::record(frame.commands); });
+  });
+  if (!state_.screenshot.empty() && resting_) saveScreenshot();
+}
+
+void App::followWalk(double seconds) {
+  if (!options_.walk) return;
+  const io::Walk& walk = *options_.walk;
+  if (state_.playing) walkSeconds_ += seconds;
+  const double end = walk.keys.back().time_s;
+  if (walkSeconds_ > end) {
+    walkSeconds_ = end;
+    state_.playing = false;
+  }
+  caption_ = io::keyAt(walk, walkSeconds_).caption;
+  const io::Scene there = io::sceneAt(walk, walkSeconds_);
+  state_.scene.atmosphere = there.atmosphere;
+  state_.scene.camera = there.camera;
+  state_.scene.sun = there.sun;
+  state_.scene.exposure = there.exposure;
+  state_.scene.stars = there.stars;
+}
+
+// Plans and bakes anew where the scene asks for other tables. Camera and sun may go anywhere, so
+// they don't count.
+void App::followScene() {
+  const io::Scene& scene = state_.scene;
+  const bool same = hasPlan_ && scene.model == planned_.model && scene.solver == planned_.solver &&
+                    scene.quality == planned_.quality && scene.orders == planned_.orders &&
+                    scene.shafts == planned_.shafts &&
+                    std::equal(scene.effects, scene.effects + kEffectCount, planned_.effects) &&
+                    io::firstDifference(scene.atmosphere, planned_.atmosphere).empty();
+  if (same) return;
+  const bool first = !hasPlan_;
+  const io::Scene before = planned_;
+  planned_ = scene;
+  hasPlan_ = true;
+  try {
+    const Plan plan =
+        samples::planNeeds(scene, samples::needsOfFlight(scene), samples::tablesOf(scene));
+    if (baker_.want(scene.atmosphere, plan) && air_) {
+      air_->plan = plan;  // Other pipelines may be called for.
+      prepareStage();
+    }
+    state_.message.clear();
+  } catch (const std::exception& reason) {
+    if (first) throw;
+    // As it was; the user reads why.
+    state_.message = reason.what();
+    io::Scene& now = state_.scene;
+    now.atmosphere = before.atmosphere;
+    now.model = before.model;
+    now.solver = before.solver;
+    now.quality = before.quality;
+    now.orders = before.orders;
+    now.shafts = before.shafts;
+    std::copy_n(before.effects, kEffectCount, now.effects);
+    planned_ = before;
+  }
+}
+
+void App::takeBake() {
+  std::optional<Air> made = baker_.take();
+  if (!made) return;
+  air_ = std::move(made);
+  prepareStage();
+}
+
+void App::prepareStage() {
+  stage_.prepare(planned_, *air_);
+  stale_ = true;
+}
+
+// While the scene changes, as few pixels as keep the frame rate; all of them once it rests.
+VkExtent2D App::chooseSize(const Frame& frame) {
+  const VkExtent2D most = picture_.target().extent();
+  const VkExtent2D full = {std::min(frame.size.width, most.width),
+                           std::min(frame.size.height, most.height)};
+  const bool moving = duration<double>(Clock::now() - lastChange_).count() < kRestSeconds;
+  if (!moving || !state_.screenshot.empty()) return full;
+  const double seconds = timer_.seconds() - timer_.seconds("bake");
+  const double wanted = 1.0 / options_.config.framesPerSecond;
+  const bool slow = seconds > wanted, fast = seconds < 0.6 * wanted && seconds > 0.0;
+  if (slow || fast) {
+    const double factor = std::clamp(std::sqrt(0.8 * wanted / seconds), 0.7, 1.1);
+    scale_ = std::clamp(scale_ * static_cast<float>(factor), kLeastScale, 1.0f);
+  }
+  const auto scaled = [&](uint32_t side) {
+    return std::max(1u, static_cast<uint32_t>(std::lround(static_cast<float>(side) * scale_)));
+  };
+  return {scaled(full.width), scaled(full.height)};
+}
+
+void App::drawPicture(const Frame& frame) {
+  const io::Scene& scene = state_.scene;
+  Shown now;
+  now.draw = samples::describeDraw(scene);
+  now.draw.viewport = {};
+  if (air_ && !air_->plan.effects[static_cast<uint32_t>(Effect::SunDisc)].on) {
+    now.draw.sun.discRadius = 0.0;
+  }
+  now.tables = air_ ? air_->tables.get() : nullptr;
+  now.siderealHours = scene.stars ? scene.stars->siderealHours : -1.0;
+  const bool changed = stale_ || std::memcmp(&now, &shown_, sizeof now) != 0;
+  if (changed) lastChange_ = Clock::now();
+  shown_ = now;
+  stale_ = false;
+  const VkExtent2D size = chooseSize(frame);
+  const bool sameSize = size.width == drawn_.width && size.height == drawn_.height;
+  resting_ = size.width == frame.size.width && size.height == frame.size.height && now.tables;
+  if (!changed && sameSize) return;
+  drawn_ = size;
+  now.draw.viewport.extent = size;
+  if (now.tables != nullptr) {
+    stage_.record(frame, scene, *air_, now.draw, picture_, &timer_);
+    return picture_.measure(frame, size);
+  }
+  picture_.beginDrawing(frame.commands);
+  host_.gpu->render(frame.commands, picture_.target(), now.draw.viewport,
+                    VK_ATTACHMENT_LOAD_OP_CLEAR, nullptr, [] {});
+  picture_.endDrawing(frame.commands);
+}
+
+// Eyes take a moment.
+void App::chooseExposure(const Frame& frame, double seconds) {
+  if (const std::optional<double> measured = picture_.measured(frame)) wantedExposure_ = *measured;
+  if (wantedExposure_ == 0.0) return;
+  if (exposure_ == 0.0) exposure_ = wantedExposure_;
+  exposure_ *= std::pow(wantedExposure_ / exposure_, 1.0 - std::exp(-seconds / 0.1));
+}
+
+bool App::settled() const {
+  const bool exposed = state_.scene.exposure.has_value() ||
+                       std::abs(exposure_ - wantedExposure_) <= 1e-3 * wantedExposure_;
+  return resting_ && exposed && baker_.idle() && hasPlan_ && !stale_;
+}
+
+void App::makePanel() {
+  PanelFacts facts;
+  facts.air = air_ ? &*air_ : nullptr;
+  facts.baker = &baker_;
+  facts.timer = &timer_;
+  facts.bindings = &options_.config.bindings;
+  resourceReport(host_.context, &facts.resources);
+  facts.device = host_.device->name();
+  facts.exposure = state_.scene.exposure.value_or(exposure_);
+  facts.frame_ms = frameTimes_ms_.empty() ? 0.0f : frameTimes_ms_.back();
+  facts.scale = scale_;
+  facts.drawn = drawn_;
+  facts.caption = caption_;
+  facts.trouble = stage_.refusal();
+  panel_.make(&state_, facts);
+}
+
+void App::saveScreenshot() {
+  const std::string path = std::exchange(state_.screenshot, "");
+  io::LinearImage image = picture_.read(drawn_);
+  io::Done done;
+  if (path.ends_with(".exr")) {
+    done = io::writeExr(path, image);
+  } else {
+    const double exposure = state_.scene.exposure.value_or(io::automaticExposure(image));
+    for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] *= state_.balance[i % 3];
+    done = io::writePng(path, io::toneMapped(image, exposure, state_.scene.toneMap));
+  }
+  state_.message = done ? "Saved '" + path + "'." : done.error;
+  if (!done && script_) throw Failure(done.error);
+}
+
+}  // namespace alpenglow::view

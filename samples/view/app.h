@@ -1,0 +1,105 @@
+// The program: a window, a device, a context, and the loop around them.
+#pragma once
+
+#include <alpenglow/io/walk_file.h>
+
+#include <array>
+#include <chrono>
+#include <memory>
+#include <optional>
+
+#include "baker.h"
+#include "config.h"
+#include "interface.h"
+#include "panel.h"
+#include "script.h"
+#include "stage.h"
+
+namespace alpenglow::view {
+
+struct AppOptions {
+  io::Scene scene;
+  std::optional<io::Walk> walk;
+  Config config;
+  std::string device;   ///< As --device.
+  std::string script;   ///< Empty: none.
+  std::string shaders;  ///< A folder to reload shaders from; empty: none.
+  bool validation = false;
+};
+
+/// Vulkan, up to the window's picture. Members are destroyed from the last to the first.
+class Host {
+ public:
+  Host(const AppOptions& options, Window* window);
+  Host(const Host&) = delete;
+  Host& operator=(const Host&) = delete;
+  ~Host();
+
+  std::unique_ptr<headless::Device> device;
+  std::optional<samples::Gpu> gpu;
+  std::optional<Presenter> presenter;
+  Context* context = nullptr;
+  std::string lastError;  ///< The library's last sentence.
+};
+
+class App {
+ public:
+  explicit App(AppOptions options);
+  App(const App&) = delete;
+  App& operator=(const App&) = delete;
+  ~App() { host_.device->waitIdle(); }
+  /// Until the user quits. Returns how many validation messages there were.
+  size_t run();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void frame();
+  void followWalk(double seconds);
+  void followScene();
+  void takeBake();
+  void prepareStage();
+  VkExtent2D chooseSize(const Frame& frame);
+  void drawPicture(const Frame& frame);
+  void chooseExposure(const Frame& frame, double seconds);
+  void makePanel();
+  void saveScreenshot();
+  bool settled() const;
+  void report(const std::string& path);
+
+  AppOptions options_;
+  Window window_;
+  Host host_;
+  Interface interface_;
+  Picture picture_;
+  PassTimer timer_;
+  Stage stage_;
+  Baker baker_;
+  Panel panel_;
+  std::optional<Script> script_;
+  std::optional<Air> air_;  ///< What is drawn with.
+  State state_;
+
+  io::Scene planned_;  ///< The scene that the last plan was made for.
+  bool hasPlan_ = false;
+  double walkSeconds_ = 0.0;
+  std::string caption_;
+  double exposure_ = 0.0, wantedExposure_ = 0.0;  ///< Shown now, and soon; 0: not known yet.
+  double unitsPerSecond_ = 0.0;                   ///< Of bakes, by the device's clock.
+  std::array<uint64_t, kFramesInFlight> unitsOfSlot_ = {};
+
+  float scale_ = 1.0f;  ///< Of a side of the picture, while it moves.
+  VkExtent2D drawn_ = {};
+  /// What the picture shows.
+  struct Shown {
+    SkyDraw draw;
+    const Tables* tables = nullptr;
+    double siderealHours = 0.0;  ///< -1 without stars.
+  };
+  Shown shown_;
+  bool stale_ = true;     ///< Pipelines have changed since.
+  bool resting_ = false;  ///< The last frame drew, or kept, the picture at full resolution.
+  Clock::time_point lastFrame_ = Clock::now(), lastChange_ = Clock::now();
+  std::vector<float> frameTimes_ms_;  ///< Since the last report.
+};
+
+}  // namespace alpenglow::view

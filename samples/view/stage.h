@@ -1,0 +1,82 @@
+// What is drawn: a scene's sky, ground, terrain, shafts, stars and balloons, through one view.
+#pragma once
+
+#include <alpenglow/io/scene_file.h>
+
+#include <memory>
+#include <optional>
+
+#include "baker.h"
+#include "pass_timer.h"
+#include "picture.h"
+#include "stars/stars.h"
+#include "terrain/landscape.h"
+
+namespace alpenglow::view {
+
+class Stage {
+ public:
+  /// `size`: the most pixels that are drawn. All outlive it.
+  Stage(const samples::Gpu* gpu, Context* context, VkExtent2D size);
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+  ~Stage();
+
+  /// Reads what a scene names. Throws; then all is as it was.
+  void load(const io::Scene& scene);
+
+  /// Makes the pipelines for these tables, unless there are: they follow solver, effects, quality
+  /// and shaft method, and no parameter. Waits for the device where it must. Throws.
+  void prepare(const io::Scene& scene, const Air& air);
+  /// Makes all pipelines anew at the next prepare(): shaders have changed.
+  void forget() { key_.reset(); }
+
+  /// Draws into the picture's target. Outside rendering scopes. What the library refuses is left
+  /// out of the picture; refusal() says why.
+  void record(const Frame& frame, const io::Scene& scene, const Air& air, SkyDraw draw,
+              const Picture& picture, PassTimer* timer);
+  const std::string& refusal() const { return refusal_; }
+
+  bool hasTerrain() const { return mesh_.has_value(); }
+
+ private:
+  /// What pipelines depend on.
+  struct Key {
+    Solver solver;
+    MieStorage mie;
+    EffectFlags without;
+    bool sliced, air;
+    Quality quality;
+    Projection projection;
+    io::SceneShafts shafts;
+    uint32_t shaftSamples;
+    bool operator==(const Key&) const = default;
+  };
+  Key keyOf(const io::Scene& scene, const Air& air) const;
+  void makeLandscape(const io::Scene& scene, const Key& key, const Air& air);
+  void makeView(const Key& key, const Air& air);
+  void recordShadows(const Frame& frame, const Air& air, const SkyDraw& draw, PassTimer* timer);
+  void recordScope(const Frame& frame, const io::Scene& scene, const Air& air, const SkyDraw& draw,
+                   PassTimer* timer);
+  /// Whether the library did it.
+  bool done(Status status);
+  void destroyAll();
+
+  const samples::Gpu* gpu_;
+  Context* context_;
+  VkExtent2D size_;
+  std::optional<samples::TerrainMesh> mesh_;
+  double meshRadius_m_ = 0.0;
+  std::optional<io::AlbedoMap> terrainAlbedo_;
+  bool balloons_ = false;
+  headless::Image albedo_;
+  samples::Owned<VkSampler> sampler_;
+  std::optional<Key> key_;
+  std::optional<samples::Landscape> landscape_;
+  std::optional<samples::Stars> stars_;
+  View* view_ = nullptr;
+  double mappedSun_[3] = {};  ///< Of the map from the sun.
+  std::string refusal_;
+};
+
+}  // namespace alpenglow::view

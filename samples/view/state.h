@@ -1,0 +1,37 @@
+// What controls, panel, script and walk change, and the frame loop looks at.
+#pragma once
+
+#include <alpenglow/io/scene_file.h>
+
+#include <string>
+
+namespace alpenglow::view {
+
+struct State {
+  io::Scene scene;
+  io::Scene start;                        ///< What R goes back to.
+  float balance[3] = {1.0f, 1.0f, 1.0f};  ///< Of the display's colours.
+  bool panel = true, help = false;
+  bool quit = false;
+  bool playing = true;  ///< Of a walk.
+  /// What to save at the end of the frame; empty: nothing. ".exr" or ".png".
+  std::string screenshot;
+  /// The last thing that went wrong, or was done: a sentence.
+  std::string message;
+};
+
+/// Turns camera and sun by what a host's own camera code would: positions on the globe.
+/// Moves the camera `metres` along its own axes: forward, right and up. The sun stays where it is.
+void moveCamera(io::Scene* scene, const double metres[3]);
+
+/// Metres a second that suit the camera's altitude.
+double cameraSpeed(const io::Scene& scene);
+
+/// The sun's place at a time of the day, hours after midnight, where its declination is this.
+void setTimeOfDay(io::Scene* scene, double hours, double declination);
+/// The hours that the sun's place stands for.
+double timeOfDay(const io::Scene& scene);
+/// Declination of the sun's place.
+double declination(const io::Scene& scene);
+
+}  // namespace alpenglow::view

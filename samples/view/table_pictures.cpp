@@ -1,0 +1,142 @@
+#include "table_pictures.h"
+
+#include <alpenglow/shaders/view_table_2d_1.h>
+#include <alpenglow/shaders/view_table_2d_2.h>
+#include <alpenglow/shaders/view_table_3d_2.h>
+#include <alpenglow/shaders/view_table_3d_3.h>
+#include <alpenglow/shaders/view_table_3d_4.h>
+#include <alpenglow/shaders/view_tone_vertex.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "interface.h"
+#include "picture.h"
+
+namespace alpenglow::view {
+namespace {
+
+samples::Code codeOf(uint32_t binding, bool volume) {
+  if (!volume) return binding == 1 ? samples::Code(shaders::kViewTable2d1) : shaders::kViewTable2d2;
+  return binding == 2   ? samples::Code(shaders::kViewTable3d2)
+         : binding == 3 ? samples::Code(shaders::kViewTable3d3)
+                        : samples::Code(shaders::kViewTable3d4);
+}
+
+}  // namespace
+
+TablePictures::TablePictures(const samples::Gpu* gpu, Context* context, VkRenderPass renderPass)
+    : gpu_(gpu), renderPass_(renderPass), vk_(*gpu) {
+  const VkDescriptorSetLayout set = tableSetLayout(context);
+  layout_ = gpu->pipelineLayout({&set, 1}, {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(Push)});
+}
+
+std::vector<TablePictures::Shown> TablePictures::tablesOf(const TableDesc& desc) {
+  std::vector<Shown> all;
+  const auto without = [&](Effect effect) { return !hasEffect(desc.without, effect); };
+  switch (desc.solver) {
+    case Solver::Moments:
+      all.push_back({"optical depth", "mu, r", 1, false});
+      if (without(Effect::MultipleScattering)) break;
+      all.push_back({"moments", "mu_s, r; five below each other", 2, false});
+      if (!without(Effect::Mie)) all.push_back({"source", "gamma and psi, mu_s; r", 3, true});
+      break;
+    case Solver::Standard:
+      all = {{"optical depth", "mu, r", 1, false},
+             {"irradiance E", "mu_s, r", 2, false},
+             {"scattering S", "mu_s and nu, mu; r", 3, true},
+             {"single Mie", "mu_s and nu, mu; r", 4, true}};
+      break;
+    case Solver::Schafhitzel:
+      all = {{"transmittance", "mu, r", 1, false},
+             {"Rayleigh", "mu, mu_s; r", 2, true},
+             {"Mie", "mu, mu_s; r", 3, true}};
+      break;
+    case Solver::Hillaire:
+      all = {{"transmittance", "mu, r", 1, false}, {"multiple", "mu_s, r", 2, false}};
+      break;
+    case Solver::HoffmanPreetham:
+      break;
+    case Solver::ONeil:
+      all = {{"transmittance", "mu, r", 1, false}};
+      break;
+  }
+  return all;
+}
+
+VkPipeline TablePictures::pipelineFor(const Shown& shown) {
+  samples::Owned<VkPipeline>& pipeline = pipelines_[{shown.binding, shown.volume}];
+  if (pipeline.get() == VK_NULL_HANDLE) {
+    samples::PipelineDesc desc;
+    desc.vertex = shaders::kViewToneVertex;
+    desc.fragment = codeOf(shown.binding, shown.volume);
+    desc.layout = layout_.get();
+    desc.color = kRadianceFormat;
+    desc.renderPass = renderPass_;
+    pipeline = gpu_->pipeline(desc);
+  }
+  return pipeline.get();
+}
+
+void TablePictures::make(const Tables* tables, const TableDesc& desc) {
+  const std::vector<Shown> all = tablesOf(desc);
+  draws_.clear();
+  if (all.empty()) {
+    ImGui::TextWrapped("This model has no table.");
+    return;
+  }
+  chosen_ = std::min(chosen_, all.size() - 1);
+  for (size_t i = 0; i < all.size(); ++i) {
+    if (i > 0) ImGui::SameLine();
+    if (ImGui::RadioButton(all[i].name, chosen_ == i)) chosen_ = i;
+  }
+  const Shown& shown = all[chosen_];
+  ImGui::TextDisabled("across, down%s: %s", shown.volume ? "; layer" : "", shown.axes);
+  if (shown.volume) ImGui::SliderFloat("layer", &layer_, 0.0f, 1.0f, "%.3f of the layers");
+  ImGui::SliderFloat("brightness", &stops_, -10.0f, 20.0f, "%+.1f stops");
+  ImGui::Checkbox("logarithm (6 decades)", &logarithm_);
+
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = std::max(ImGui::GetContentRegionAvail().x, 16.0f);
+  const float height = 0.6f * width;
+  const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
+  const Push push = {
+      {at.x * pixels.x, at.y * pixels.y, width * pixels.x, height * pixels.y},
+      {std::min(layer_, 0.9999f), std::exp2(stops_), logarithm_ ? 1.0f : 0.0f, 0.0f}};
+  draws_.push_back({this, pipelineFor(shown), tableSet(tables), push});
+  ImDrawList* list = ImGui::GetWindowDrawList();
+  list->AddCallback(draw, &draws_.back());
+  list->AddCallback(ImDrawCallback_ResetRenderState, nullptr);
+  ImGui::Dummy({width, height});
+}
+
+void TablePictures::draw(const ImDrawList*, const ImDrawCmd* command) {
+  const Draw& draw = *static_cast<const Draw*>(command->UserCallbackData);
+  const Functions& vk = draw.owner->vk_;
+  const VkCommandBuffer commands = Interface::recording();
+  const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const float* area = draw.push.area;
+  // The part of the picture that the panel's window shows.
+  const ImVec4& clip = command->ClipRect;
+  const float left = std::max({area[0], clip.x * pixels.x, 0.0f});
+  const float top = std::max({area[1], clip.y * pixels.y, 0.0f});
+  const float right = std::min({area[0] + area[2], clip.z * pixels.x, display.x * pixels.x});
+  const float bottom = std::min({area[1] + area[3], clip.w * pixels.y, display.y * pixels.y});
+  if (right <= left || bottom <= top) return;
+  const VkViewport viewport = {area[0], area[1], area[2], area[3], 0.0f, 1.0f};
+  const VkRect2D scissor = {
+      {static_cast<int32_t>(left), static_cast<int32_t>(top)},
+      {static_cast<uint32_t>(right - left), static_cast<uint32_t>(bottom - top)}};
+  const VkPipelineLayout layout = draw.owner->layout_.get();
+  vk.CmdSetViewport(commands, 0, 1, &viewport);
+  vk.CmdSetScissor(commands, 0, 1, &scissor);
+  vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, draw.pipeline);
+  vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1, &draw.set, 0,
+                           nullptr);
+  vk.CmdPushConstants(commands, layout, VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(Push), &draw.push);
+  vk.CmdDraw(commands, 3, 1, 0, 0);
+}
+
+}  // namespace alpenglow::view
