@@ -24,8 +24,14 @@ layout(set = ALPENGLOW_SET, binding = 0, std140) uniform AlpenglowAtmosphere {
   MomentShape alpenglowShape;
 };
 
+// Mesa's software driver takes a uniform that ends a loop for a constant, and compiles the shader anew, and keeps
+// it, each time the uniform is bound. What a texture's size is part of it leaves alone; the shift is always 0.
+int alpenglowViewPanels() {
+  return int(alpenglowShape.viewPanels) + (textureSize(alpenglowDepthTable, 0).x >> 24);
+}
+
 PathLight alpenglowPathLight(Ray ray, float inside) {
-  return lightOfPath(alpenglowMedium, alpenglowShape, ray, inside, int(alpenglowShape.viewPanels),
+  return lightOfPath(alpenglowMedium, alpenglowShape, ray, inside, alpenglowViewPanels(),
                      true, ALPENGLOW_MULTIPLE);
 }
 

@@ -7,8 +7,23 @@
 
 layout(set = 0, binding = 0, std140) uniform Atmosphere {
   Medium medium;
-  MomentShape shape;
+  MomentShape boundShape;
 };
+
+// What is bound, but the counts, which end loops, are no mere uniforms: alpenglow/moment_tables.glsl says why.
+MomentShape openShape() {
+  MomentShape s = boundShape;
+  float zero = float(int(gl_GlobalInvocationID.x) >> 30);
+  s.ringsSky += zero;
+  s.ringsLimb += zero;
+  s.ringsGround += zero;
+  s.azimuths += zero;
+  s.degree += zero;
+  s.solverPanels += zero;
+  s.layers += zero;
+  return s;
+}
+MomentShape shape = openShape();
 
 layout(set = 0, binding = 1) uniform sampler2D depthTable;
 layout(set = 0, binding = 2) uniform sampler2D fieldTable;  // of the order before

@@ -40,7 +40,7 @@ AirLight alpenglowAirLight(AirRay air, float distance_) {
 Spectrum alpenglowAirSingle(AirRay air, float distance_) {
   float inside = alpenglowInside(air.ray, distance_);
   PathLight light = lightOfPath(alpenglowMedium, alpenglowShape, air.ray, inside,
-                                int(alpenglowShape.viewPanels), true, false);
+                                alpenglowViewPanels(), true, false);
   return inside > 0.0 ? radianceOfPath(alpenglowMedium, light, air.ray.nu) : SPECTRUM(0.0);
 }
 #endif
