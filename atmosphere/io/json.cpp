@@ -131,17 +131,11 @@ double shortestDegrees(double angle) {
     const double rounded = std::strtod(text, nullptr);
     if (radians(rounded) == angle) return rounded;
   }
-  double nearest = exact;
   for (const double neighbour :
        {std::nextafter(exact, kInfinity), std::nextafter(exact, -kInfinity)}) {
-    if (std::abs(radians(neighbour) - angle) < std::abs(radians(nearest) - angle)) {
-      nearest = neighbour;
-    }
+    if (radians(neighbour) == angle) return neighbour;
   }
-  // No degrees give one angle in eleven. What stands for its neighbour stands for it, too, so that
-  // a text that is read and written again stays as it is.
-  const bool reached = radians(nearest) == angle || !std::isfinite(nearest);
-  return reached ? nearest : shortestDegrees(radians(nearest));
+  return exact;
 }
 
 std::string showNumber(double value) {

@@ -5,7 +5,6 @@
 #include <alpenglow/io/table_file.h>
 
 #include <algorithm>
-#include <bit>
 #include <filesystem>
 
 #include "atmosphere/io/atmosphere_json.h"
@@ -42,18 +41,13 @@ OrderedJson spectrumJson(const Spectrum& spectrum) {
   return array;
 }
 
-// The text has all that counts, with all digits, but for an angle that no degrees give.
-bool sameBits(const Parameters& a, const Parameters& b) {
-  return std::bit_cast<uint64_t>(a.sunAngularRadius) ==
-             std::bit_cast<uint64_t>(b.sunAngularRadius) &&
-         formatAtmosphere(a) == formatAtmosphere(b);
-}
-
+// Where the object would be a preset's, all digits of it, its name reads back as the same bits.
 OrderedJson atmosphereOf(const Parameters& parameters) {
+  const std::string text = formatAtmosphere(parameters);
   for (uint32_t i = 0; i < presetCount(); ++i) {
     Parameters preset;
     if (findPreset(presetName(i), &preset) != Status::Ok) continue;
-    if (sameBits(parameters, preset)) return presetName(i);
+    if (formatAtmosphere(preset) == text) return presetName(i);
   }
   return atmosphereToJson(parameters);
 }
