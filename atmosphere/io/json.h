@@ -21,7 +21,9 @@ inline constexpr uint64_t kMaxJsonBytes = uint64_t{64} << 20;
 
 inline constexpr double kPi = 3.14159265358979323846;
 inline double radians(double degrees) { return degrees * (kPi / 180.0); }
-/// The shortest degrees for which radians() gives back exactly this angle, where there are any.
+/// The shortest degrees for which radians() gives back exactly this angle, where there are any (of
+/// about ten in eleven doubles, and of all that come from degrees), else those of a neighbouring
+/// double, which no other degrees give.
 double shortestDegrees(double angle);
 
 /// Parses text; `name` is how sentences call the file. NaN, Infinity and numbers beyond a double

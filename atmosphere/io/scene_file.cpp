@@ -13,6 +13,22 @@
 #include "atmosphere/io/scene_terrain.h"
 
 namespace alpenglow::io {
+
+const std::vector<std::string>& projectionNames() {
+  static const std::vector<std::string> kNames = {"perspective", "fisheye", "orthographic"};
+  return kNames;
+}
+
+const std::vector<std::string>& shaftNames() {
+  static const std::vector<std::string> kNames = {"auto", "paper", "exact", "march", "off"};
+  return kNames;
+}
+
+const std::vector<std::string>& forceNames() {
+  static const std::vector<std::string> kNames = {"auto", "on", "off"};
+  return kNames;
+}
+
 namespace {
 
 constexpr double kMaxAltitude_m = 1e12;
@@ -39,7 +55,7 @@ double readFov(JsonErrors* errors, ObjectReader* reader, Projection projection) 
 
 // An orthographic camera has a height in metres, the others an angle.
 void readProjection(JsonErrors* errors, ObjectReader* reader, SceneCamera* camera) {
-  const size_t choice = reader->choice("projection", {"perspective", "fisheye", "orthographic"});
+  const size_t choice = reader->choice("projection", projectionNames());
   if (choice < 2) {
     camera->projection = static_cast<Projection>(choice);
     camera->fov = readFov(errors, reader, camera->projection);
@@ -153,7 +169,7 @@ void readEffects(JsonErrors* errors, const Json& value, Scene* scene) {
                         "light_shafts", "space_views", "twilight", "night"});
   for (uint32_t i = 0; i < kEffectCount; ++i) {
     const char* name = effectName(static_cast<Effect>(i));
-    scene->effects[i] = static_cast<Force>(effects.choice(name, {"auto", "on", "off"}));
+    scene->effects[i] = static_cast<Force>(effects.choice(name, forceNames()));
   }
 }
 
@@ -194,8 +210,7 @@ SceneNeeds readNeeds(JsonErrors* errors, const Json& value, const Scene& scene) 
 }
 
 void readShafts(JsonErrors* errors, ObjectReader* reader, Scene* scene) {
-  scene->shafts = static_cast<SceneShafts>(
-      reader->choice("shafts", {"auto", "paper", "exact", "march", "off"}));
+  scene->shafts = static_cast<SceneShafts>(reader->choice("shafts", shaftNames()));
   if (reader->has("shaft_samples")) {
     scene->shaftSamples = reader->integer("shaft_samples", 1, kMaxShaftSamples);
   }

@@ -4,6 +4,7 @@
 #include <alpenglow/io/scene_file.h>
 
 #include <string>
+#include <vector>
 
 #include "atmosphere/io/json.h"
 
@@ -15,5 +16,10 @@ Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& fo
 /// The same of its field "atmosphere", a string or an object.
 void readAtmosphereOf(JsonErrors* errors, const Json& value, const std::string& folder,
                       Parameters* out);
+
+/// How files spell choices, in the order of their values; "orthographic" comes after Projection's.
+const std::vector<std::string>& projectionNames();
+const std::vector<std::string>& shaftNames();
+const std::vector<std::string>& forceNames();
 
 }  // namespace alpenglow::io

@@ -137,6 +137,19 @@ Result<Scene> readScene(const std::string& path);
 Result<Scene> parseScene(const std::string& text, const std::string& name,
                          const std::string& folder);
 
+/// The text of a scene file, for a scene that a file could hold. A preset's parameters are its
+/// name. Sun, camera, terrain and balloons have all their fields; others are left out at their
+/// defaults. Paths are made absolute and lexically normal ("a/../b" is "b"), since the text may be
+/// put anywhere; bytes that are no UTF-8 become U+FFFD in them.
+///
+/// Read back it is the same scene with those paths: all numbers bit for bit, and the angles of
+/// scenes that were read. Of other angles about one in eleven is what no number of degrees gives;
+/// it comes back as a neighbouring double, and stays that when it is written again. A lone end of a
+/// range in `needs` comes back with the scene's own value at the other.
+std::string formatScene(const Scene& scene);
+/// Fails, too, when no scene file can hold the scene: a reader would refuse it or open other paths.
+Done writeScene(const std::string& path, const Scene& scene);
+
 /// What an ATMOSPHERE on the command line gave: a preset's name, an atmosphere file, or a scene
 /// file whose atmosphere is meant. The last two are told apart by content.
 struct AtmosphereSource {
