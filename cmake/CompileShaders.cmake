@@ -12,6 +12,26 @@ set(ALPENGLOW_GENERATED_SHADER_DIR "${PROJECT_BINARY_DIR}/shaders/generated")
 set(ALPENGLOW_GLSL_SOURCE_DIR "${PROJECT_SOURCE_DIR}/shaders/glsl")
 set(ALPENGLOW_EMBED_SCRIPT "${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake")
 
+# Keeps name, source and defines of a shader below shaders/glsl, as a line of shaders.json.
+function(alpenglow_note_shader source name defines)
+  file(RELATIVE_PATH path "${ALPENGLOW_GLSL_SOURCE_DIR}" "${source}")
+  if(path MATCHES "^\\.\\./")
+    return()
+  endif()
+  list(TRANSFORM defines PREPEND "\"")
+  list(TRANSFORM defines APPEND "\"")
+  string(REPLACE ";" ", " defines "${defines}")
+  set_property(GLOBAL APPEND PROPERTY ALPENGLOW_SHADERS
+               "  {\"name\": \"${name}\", \"source\": \"${path}\", \"defines\": [${defines}]}")
+endfunction()
+
+# Writes shaders.json, an array of the shaders noted until now: docs/shaders.md.
+function(alpenglow_write_shader_list file)
+  get_property(lines GLOBAL PROPERTY ALPENGLOW_SHADERS)
+  list(JOIN lines ",\n" text)
+  file(CONFIGURE OUTPUT "${file}" CONTENT "[\n${text}\n]\n" @ONLY)
+endfunction()
+
 function(alpenglow_embed_shader)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "TARGET;SOURCE;NAME;OUTPUT" "DEFINES")
   if(arg_UNPARSED_ARGUMENTS OR NOT (arg_TARGET AND arg_SOURCE AND arg_NAME AND arg_OUTPUT))
@@ -23,6 +43,7 @@ function(alpenglow_embed_shader)
   set(spirv "${ALPENGLOW_GENERATED_SHADER_DIR}/spirv/${stem}.spv")
   set(header "${ALPENGLOW_GENERATED_SHADER_DIR}/alpenglow/shaders/${stem}.h")
   file(MAKE_DIRECTORY "${ALPENGLOW_GENERATED_SHADER_DIR}/spirv")
+  alpenglow_note_shader("${source}" "${arg_NAME}" "${arg_DEFINES}")
   list(TRANSFORM arg_DEFINES PREPEND "-D")
 
   add_custom_command(

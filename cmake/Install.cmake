@@ -17,8 +17,9 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/atmosphere/include/alpenglow"
                   "${PROJECT_SOURCE_DIR}/engine/headless/include/alpenglow"
         DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h"
         PATTERN "io" EXCLUDE)
-install(DIRECTORY "${ALPENGLOW_GLSL_SOURCE_DIR}/alpenglow" "${ALPENGLOW_GLSL_SOURCE_DIR}/physics"
-        DESTINATION "${share}/glsl" FILES_MATCHING PATTERN "*.glsl")
+install(DIRECTORY "${ALPENGLOW_GLSL_SOURCE_DIR}/" DESTINATION "${share}/glsl"
+        FILES_MATCHING REGEX "\\.(glsl|comp|vert|geom|frag)$")
+install(FILES "${PROJECT_BINARY_DIR}/shaders/shaders.json" DESTINATION "${share}/glsl")
 
 if(ALPENGLOW_BUILD_IO)
   install(TARGETS alpenglow_io EXPORT AlpenglowIoTargets
@@ -32,6 +33,10 @@ if(ALPENGLOW_BUILD_IO)
 endif()
 if(ALPENGLOW_BUILD_SAMPLES)
   install(TARGETS alpenglow RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  if(ALPENGLOW_BUILD_VIEWER)
+    install(TARGETS alpenglow_view RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+    install(FILES "${PROJECT_SOURCE_DIR}/samples/view/view.json" DESTINATION "${share}")
+  endif()
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/samples/scenes" "${PROJECT_SOURCE_DIR}/samples/walks"
                     "${PROJECT_SOURCE_DIR}/samples/data"
           DESTINATION "${share}")

@@ -135,7 +135,9 @@ Device::Device(const ContextDesc& desc, const Dispatch& table)
     : desc_(desc), vk_(table), deletions_(*this) {
   if (desc.memory != nullptr) hooks_ = *desc.memory;
   queueFamilies_.assign(desc.queueFamilies, desc.queueFamilies + desc.queueFamilyCount);
-  // Both point at the host's memory, which needn't outlive the call.
+  if (desc.shaders != nullptr) shaderHook_ = *desc.shaders;
+  // They point at the host's memory, which needn't outlive the call.
+  desc_.shaders = nullptr;
   desc_.memory = nullptr;
   desc_.queueFamilies = nullptr;
   vk_.GetPhysicalDeviceProperties(desc_.physicalDevice, &properties_);

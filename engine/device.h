@@ -83,6 +83,7 @@ class Device {
   VkPipelineCache pipelineCache() const { return desc_.pipelineCache; }
   const Requirements& enabled() const { return desc_.enabled; }
   const MemoryHooks* memoryHooks() const { return hooks_.allocate != nullptr ? &hooks_ : nullptr; }
+  const ShaderHook& shaderHook() const { return shaderHook_; }
   /// The families that share our images and buffers; more than one means concurrent.
   const std::vector<uint32_t>& queueFamilies() const { return queueFamilies_; }
   VkSharingMode sharingMode() const {
@@ -133,6 +134,7 @@ class Device {
   ContextDesc desc_;
   Dispatch vk_;
   MemoryHooks hooks_;
+  ShaderHook shaderHook_;
   std::vector<uint32_t> queueFamilies_;
   VkPhysicalDeviceProperties properties_ = {};
   VkPhysicalDeviceMemoryProperties memoryProperties_ = {};

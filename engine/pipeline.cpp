@@ -286,9 +286,11 @@ Status createPipelineLayout(Device& device, const VkDescriptorSetLayout* setLayo
   return Status::Ok;
 }
 
-Status createComputePipeline(Device& device, const ComputePipelineDesc& desc, VkPipeline* out) {
+Status createComputePipeline(Device& device, const ComputePipelineDesc& given, VkPipeline* out) {
   *out = VK_NULL_HANDLE;
-  Status status = checkConstants(device, desc.shader.name, desc.constantCount);
+  ComputePipelineDesc desc = given;
+  Status status = chooseShader(device, given.shader, &desc.shader);
+  if (status == Status::Ok) status = checkConstants(device, desc.shader.name, desc.constantCount);
   if (status != Status::Ok) return status;
   const Specialization specialization(desc.constants, desc.constantCount);
   Stages stages(device, specialization.info());
@@ -311,8 +313,13 @@ Status createComputePipeline(Device& device, const ComputePipelineDesc& desc, Vk
   return Status::Ok;
 }
 
-Status createGraphicsPipeline(Device& device, const GraphicsPipelineDesc& desc, VkPipeline* out) {
+Status createGraphicsPipeline(Device& device, const GraphicsPipelineDesc& given, VkPipeline* out) {
   *out = VK_NULL_HANDLE;
+  GraphicsPipelineDesc desc = given;
+  for (Shader* shader : {&desc.vertex, &desc.geometry, &desc.fragment}) {
+    const Status chosen = chooseShader(device, *shader, shader);
+    if (chosen != Status::Ok) return chosen;
+  }
   Status status = checkTarget(device, desc);
   if (status != Status::Ok) return status;
   const Specialization specialization(desc.constants, desc.constantCount);

@@ -107,7 +107,12 @@ void Resources::destroy(Resources* resources) {
 
 Status Resources::pipeline(const Stage& stage, VkPipeline* out) {
   Key key;
+  engine::Shader used;
+  const Status chosen = engine::chooseShader(device_, stage.shader, &used);
+  if (chosen != Status::Ok) return chosen;
   key.code = stage.shader.code;
+  // The host's code may come to lie where other code of it lay.
+  if (used.code != key.code) key.replacement = engine::variantKey(used, nullptr, 0);
   key.without = stage.without;
   engine::SpecConstant constants[kStageConstants + kEffectConstants];
   for (uint32_t i = 0; i < kStageConstants; ++i) {

@@ -58,6 +58,7 @@ class Resources {
 
   struct Key {
     const uint32_t* code = nullptr;
+    uint64_t replacement = 0;  ///< Of the host's code in its place; 0: none.
     std::array<bool, kStageConstants> constants = {};
     EffectFlags without = 0;
     auto operator<=>(const Key&) const = default;

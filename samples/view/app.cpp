@@ -100,6 +100,12 @@ Host::Host(const AppOptions& options, Window* window) {
   desc.capabilities = capabilities;
   desc.diagnostic = keepError;
   desc.user = &lastError;
+  ShaderHook hook;
+  if (!options.shaders.empty()) {
+    shaders.emplace(options.shaders);
+    hook = shaders->hook();
+    desc.shaders = &hook;
+  }
   gpu->check(createContext(desc, &context));
 }
 
@@ -167,6 +173,7 @@ void App::frame() {
   state_.scene.height = frame.size.height;
   chooseExposure(frame, seconds);
   followScene();
+  followShaders();
   const double baked = timer_.seconds("bake");
   if (const uint64_t units = std::exchange(unitsOfSlot_[frame.slot], 0); units > 0 && baked > 0.0) {
     const double rate = static_cast<double>(units) / baked;
@@ -251,6 +258,25 @@ void App::followScene() {
   }
 }
 
+// Pipelines of what was edited. What the library refuses is taken back, and the old code stays.
+void App::followShaders() {
+  if (!host_.shaders || !hasPlan_ || !host_.shaders->poll()) return;
+  const auto makeAll = [this] {
+    stage_.forget();
+    if (air_) prepareStage();
+    baker_.again();
+  };
+  try {
+    makeAll();
+    state_.message = "The shaders were loaded again.";
+  } catch (const std::exception& reason) {
+    const std::string why = reason.what();
+    host_.shaders->undo();
+    makeAll();
+    state_.message = why;
+  }
+}
+
 void App::takeBake() {
   std::optional<Air> made = baker_.take();
   if (!made) return;
@@ -324,7 +350,8 @@ void App::chooseExposure(const Frame& frame, double seconds) {
 bool App::settled() const {
   const bool exposed = state_.scene.exposure.has_value() ||
                        std::abs(exposure_ - wantedExposure_) <= 1e-3 * wantedExposure_;
-  return resting_ && exposed && baker_.idle() && hasPlan_ && !stale_;
+  const bool compiling = host_.shaders && host_.shaders->compiling();
+  return resting_ && exposed && baker_.idle() && hasPlan_ && !stale_ && !compiling;
 }
 
 void App::makePanel() {
@@ -341,6 +368,7 @@ void App::makePanel() {
   facts.drawn = drawn_;
   facts.caption = caption_;
   facts.trouble = stage_.refusal();
+  if (host_.shaders && !host_.shaders->error().empty()) facts.trouble = host_.shaders->error();
   panel_.make(&state_, facts);
 }
 

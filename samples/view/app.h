@@ -13,6 +13,7 @@
 #include "interface.h"
 #include "panel.h"
 #include "script.h"
+#include "shader_folder.h"
 #include "stage.h"
 
 namespace alpenglow::view {
@@ -35,6 +36,7 @@ class Host {
   Host& operator=(const Host&) = delete;
   ~Host();
 
+  std::optional<ShaderFolder> shaders;  ///< Where --shaders was given.
   std::unique_ptr<headless::Device> device;
   std::optional<samples::Gpu> gpu;
   std::optional<Presenter> presenter;
@@ -56,6 +58,7 @@ class App {
   void frame();
   void followWalk(double seconds);
   void followScene();
+  void followShaders();
   void takeBake();
   void prepareStage();
   VkExtent2D chooseSize(const Frame& frame);

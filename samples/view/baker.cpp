@@ -62,6 +62,11 @@ bool Baker::want(const Parameters& parameters, const Plan& plan) {
   return false;
 }
 
+void Baker::again() {
+  baking_.reset();
+  start(false);
+}
+
 void Baker::record(VkCommandBuffer commands, uint64_t units) {
   unitsRecorded_ = 0;
   while (baking_ && !progress_.done && unitsRecorded_ < units) {

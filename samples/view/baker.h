@@ -29,6 +29,9 @@ class Baker {
   /// refuses; then all is as it was.
   bool want(const Parameters& parameters, const Plan& plan);
 
+  /// Bakes what is wanted anew: shaders have changed. Throws as want().
+  void again();
+
   /// Records slices of about `units` table fetches in all.
   void record(VkCommandBuffer commands, uint64_t units);
 

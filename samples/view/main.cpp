@@ -29,6 +29,8 @@ void addOptions(CLI::App* app, Arguments* arguments) {
                   "Keys and window settings: JSON with comments; instead of the user's view.json");
   app->add_option("--device", arguments->options.device, "The Vulkan device: INDEX or NAME");
   app->add_option("--script", arguments->options.script, "Do the steps in this file");
+  app->add_option("--shaders", arguments->options.shaders,
+                  "Load shaders from this folder, one like shaders/glsl, as they are edited");
   app->add_flag("--validation", arguments->options.validation,
                 "Check all Vulkan calls; a message ends the program with status 1");
   app->footer(kKeys);

@@ -260,6 +260,11 @@ void Panel::make(State* state, const PanelFacts& facts) {
   if (ImGui::Button("Back to the start")) state->scene = state->start;
   ImGui::SameLine();
   if (ImGui::Button("Keys (F1)")) state->help = !state->help;
+  ImGui::SameLine();
+  if (ImGui::Button("Copy the scene")) {
+    ImGui::SetClipboardText(io::formatScene(state->scene).c_str());
+    state->message = "The scene is on the clipboard, as JSON.";
+  }
   ImGui::PopItemWidth();
   ImGui::End();
 }

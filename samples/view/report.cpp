@@ -62,6 +62,8 @@ void App::report(const std::string& path) {
   json["message"] = state_.message;
   json["caption"] = caption_;
   json["refusal"] = stage_.refusal();
+  if (host_.shaders) json["compiler"] = host_.shaders->error();
+  json["scene"] = Json::parse(io::formatScene(state_.scene));
   samples::writeText(path, json.dump(2) + "\n");
 }
 

@@ -10,7 +10,7 @@ TEST_F(ViewerArguments, HelpNamesEveryOption) {
   const Outcome outcome = run({"--help"});
   EXPECT_EQ(outcome.status, 0);
   for (const char* word : {"SCENE", "--walk", "--size", "--config", "--device", "--script",
-                           "--validation", "Escape"}) {
+                           "--shaders", "--validation", "Escape"}) {
     EXPECT_NE(outcome.out.find(word), std::string::npos) << word;
   }
 }
@@ -24,6 +24,7 @@ TEST_F(ViewerArguments, WrongOnesGetASentence) {
                 {"scene.json", "dawn_to_night", "one of them"});
   expectRefused({"--walk", "no_such_walk"}, {"no_such_walk"});
   expectRefused({scene_, "--device", "no_such_device"}, {"no_such_device", "llvmpipe"});
+  expectRefused({scene_, "--shaders", folder_.path()}, {folder_.path(), "shaders/glsl"});
   expectRefused({folder_.write("bad.json", "{\"sun\": 3}")}, {"bad.json"});
 }
 

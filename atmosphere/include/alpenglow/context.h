@@ -4,6 +4,8 @@
 
 #include <alpenglow/types.h>
 
+#include <cstddef>
+
 namespace alpenglow {
 inline namespace v1 {
 
@@ -35,6 +37,19 @@ Status queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstan
                          VkPhysicalDevice physicalDevice, CapabilityFlags wanted, Requirements* out,
                          DiagnosticFn diagnostic, void* user);
 
+/// Lets a host put SPIR-V of its own in place of a shader of ours: docs/shaders.md.
+struct ShaderHook {
+  void* user = nullptr;
+  /// Asked for each shader of each pipeline, when it is made: by createTables, recordBake,
+  /// createView, createShafts, recordProbe. `name` is the shader's in shaders.json, such as
+  /// "kSkyFragmentSlice". True: `code`, `bytes` long, is used instead; it must live until the call
+  /// that asked returns. Null with false. Code that declares a resource that ours doesn't, or is of
+  /// another stage or group size, makes that call fail with InvalidArgument. Called from the thread
+  /// that made the call. Tables and views keep the pipelines that they have: make them anew to use
+  /// other code. Those of recordProbe stay with the context.
+  bool (*replace)(void* user, const char* name, const uint32_t** code, size_t* bytes) = nullptr;
+};
+
 /// Everything is the host's and outlives the context; zero means none or the default.
 struct ContextDesc {
   VkInstance instance = VK_NULL_HANDLE;
@@ -48,6 +63,7 @@ struct ContextDesc {
   VkPipelineCache pipelineCache = VK_NULL_HANDLE;
   const VkAllocationCallbacks* allocator = nullptr;
   const MemoryHooks* memory = nullptr;  ///< Copied.
+  const ShaderHook* shaders = nullptr;  ///< Copied.
   DiagnosticFn diagnostic = nullptr;
   void* user = nullptr;
   bool debugNames = false;  ///< The host enabled VK_EXT_debug_utils on the instance.

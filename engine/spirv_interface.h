@@ -1,0 +1,33 @@
+// What a shader module asks of its pipeline: read from SPIR-V, so that a host's own code can be
+// held against ours before a driver sees it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace alpenglow::engine {
+
+/// A resource that a module declares. `kind` is equal for equal descriptor types and dimensions.
+struct SpirvResource {
+  uint32_t set = 0, binding = 0;
+  uint32_t kind = 0;
+};
+
+struct SpirvInterface {
+  bool hasMain = false;
+  uint32_t model = 0;          ///< Execution model of the entry point "main".
+  uint32_t localSize[3] = {};  ///< Of compute; 0 where constants decide.
+  bool pushConstants = false;
+  uint32_t pushConstantEnd = 0;  ///< Offset of the last member of the block.
+  std::vector<SpirvResource> resources;
+};
+
+/// Never reads outside of the words. Null, or why they are no module: the end of a sentence, such
+/// as "an instruction that is cut off". Throws std::bad_alloc.
+const char* readInterface(const uint32_t* code, size_t bytes, SpirvInterface* out);
+
+/// "a storage buffer" for a kind.
+const char* kindName(uint32_t kind);
+
+}  // namespace alpenglow::engine

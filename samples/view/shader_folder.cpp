@@ -1,0 +1,171 @@
+#include "shader_folder.h"
+
+#include <alpenglow/io/file.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "common/failure.h"
+
+namespace alpenglow::view {
+namespace {
+
+namespace fs = std::filesystem;
+using samples::Failure;
+
+constexpr uint64_t kMostBytes = 64 << 20;
+constexpr auto kLookEvery = std::chrono::milliseconds(300);
+
+// An argument of a shell command.
+std::string quoted(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+// What a command prints; `status` is 0 when it succeeded.
+std::string outputOf(const std::string& command, int* status) {
+  std::string text;
+  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) {
+    *status = -1;
+    return "The command " + command + " can't be run.";
+  }
+  char part[4096];
+  while (const size_t size = std::fread(part, 1, sizeof part, pipe)) text.append(part, size);
+  *status = ::pclose(pipe);
+  return text;
+}
+
+}  // namespace
+
+ShaderFolder::ShaderFolder(const std::string& folder) : folder_(folder) {
+  std::error_code code;
+  std::string list = folder + "/shaders.json";
+  if (!fs::exists(list, code)) list = ALPENGLOW_SHADER_LIST;
+  const std::string text = samples::take(io::readFile(list, kMostBytes));
+  for (const auto& shader : nlohmann::json::parse(text)) {
+    shaders_[shader["name"]] = {shader["source"],
+                                shader["defines"].get<std::vector<std::string>>()};
+  }
+  const std::string first = shaders_.empty() ? "" : shaders_.begin()->second.source;
+  if (!fs::exists(fs::path(folder) / first, code)) {
+    throw Failure("The folder '" + folder + "' has no file " + first +
+                  ", but --shaders needs one like shaders/glsl.");
+  }
+  times_ = times();
+}
+
+ShaderHook ShaderFolder::hook() {
+  ShaderHook hook;
+  hook.user = this;
+  hook.replace = [](void* user, const char* name, const uint32_t** code, size_t* bytes) {
+    auto* self = static_cast<ShaderFolder*>(user);
+    self->used_.insert(name);
+    const auto found = self->code_.find(name);
+    if (found == self->code_.end()) return false;
+    *code = found->second.data();
+    *bytes = found->second.size() * sizeof(uint32_t);
+    return true;
+  };
+  return hook;
+}
+
+ShaderFolder::Times ShaderFolder::times() const {
+  Times times;
+  std::error_code code;
+  for (const auto& entry : fs::recursive_directory_iterator(folder_, code)) {
+    if (!entry.is_regular_file(code)) continue;
+    times[fs::relative(entry.path(), folder_, code).string()] = entry.last_write_time(code);
+  }
+  return times;
+}
+
+// A file and all that it includes, which are beside it or named from the folder.
+std::set<std::string> ShaderFolder::filesOf(const std::string& source) const {
+  static const std::regex kInclude("#include \"([^\"]+)\"");
+  std::set<std::string> all;
+  std::vector<std::string> open = {source};
+  while (!open.empty()) {
+    const std::string file = open.back();
+    open.pop_back();
+    const auto text = io::readFile(folder_ + "/" + file, kMostBytes);
+    if (!text || !all.insert(file).second) continue;
+    for (std::sregex_iterator i(text->begin(), text->end(), kInclude), end; i != end; ++i) {
+      open.push_back((*i)[1]);
+      open.push_back((fs::path(file).parent_path() / (*i)[1].str()).lexically_normal().string());
+    }
+  }
+  return all;
+}
+
+ShaderFolder::Compiled ShaderFolder::compile(const std::string& folder,
+                                             const std::map<std::string, Shader>& shaders) {
+  Compiled result;
+  char output[] = "/tmp/alpenglow-shader-XXXXXX";
+  const int file = ::mkstemp(output);
+  if (file < 0) {
+    result.error = "There is no place for compiled shaders in /tmp.";
+    return result;
+  }
+  ::close(file);
+  for (const auto& [name, shader] : shaders) {
+    std::string command = "glslangValidator --quiet -V --target-env vulkan1.2 -g0";
+    for (const std::string& define : shader.defines) command += " " + quoted("-D" + define);
+    command +=
+        " " + quoted("-I" + folder) + " -o " + output + " " + quoted(folder + "/" + shader.source);
+    int status = 0;
+    const std::string said = outputOf(command, &status);
+    if (status != 0) {
+      result.error = said.empty() ? "The command failed: " + command : said;
+      break;
+    }
+    const auto bytes = io::readFile(output, kMostBytes);
+    if (!bytes) {
+      result.error = bytes.error;
+      break;
+    }
+    std::vector<uint32_t>& words = result.code[name];
+    words.resize(bytes->size() / sizeof(uint32_t));
+    std::memcpy(words.data(), bytes->data(), words.size() * sizeof(uint32_t));
+  }
+  ::unlink(output);
+  return result;
+}
+
+bool ShaderFolder::poll() {
+  const auto now = std::chrono::steady_clock::now();
+  if (compiled_.valid()) {
+    if (compiled_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+    Compiled compiled = compiled_.get();
+    error_ = std::move(compiled.error);
+    if (!error_.empty() || compiled.code.empty()) return false;
+    before_ = code_;
+    for (auto& [name, words] : compiled.code) code_[name] = std::move(words);
+    return true;
+  }
+  if (now - lastLook_ < kLookEvery) return false;
+  lastLook_ = now;
+  const Times before = std::exchange(times_, times());
+  std::set<std::string> changed;
+  for (const auto& [file, time] : times_) {
+    const auto found = before.find(file);
+    if (found == before.end() || found->second != time) changed.insert(file);
+  }
+  if (changed.empty()) return false;
+  std::map<std::string, Shader> stale;
+  for (const std::string& name : used_) {
+    const auto shader = shaders_.find(name);
+    if (shader == shaders_.end()) continue;
+    for (const std::string& file : filesOf(shader->second.source)) {
+      if (changed.contains(file)) stale.insert(*shader);
+    }
+  }
+  if (!stale.empty()) compiled_ = std::async(std::launch::async, compile, folder_, stale);
+  return false;
+}
+
+}  // namespace alpenglow::view
