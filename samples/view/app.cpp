@@ -384,7 +384,7 @@ void App::saveScreenshot() {
     done = io::writePng(path, io::toneMapped(image, exposure, state_.scene.toneMap));
   }
   state_.message = done ? "Saved '" + path + "'." : done.error;
-  if (!done && script_) throw Failure(done.error);
+  if (!done && !options_.script.empty()) throw Failure(done.error);
 }
 
 }  // namespace alpenglow::view

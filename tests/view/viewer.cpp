@@ -50,12 +50,14 @@ void Viewer::play(const std::string& script, const std::vector<std::string>& opt
   for (size_t i = text.find('@'); i != std::string::npos; i = text.find('@')) {
     text.replace(i, 1, folder_.path() + "/");
   }
-  std::vector<std::string> arguments = {
-      "--script", folder_.write("script.txt", text + "\nquit\n"), "--config",
-      folder_.write("fast.json", R"({"window": {"vsync": false}})")};
+  std::vector<std::string> arguments = {"--script", folder_.write("script.txt", text + "\nquit\n")};
   const auto given = [&](const std::string& name) {
     return std::find(options.begin(), options.end(), name) != options.end();
   };
+  if (!given("--config")) {
+    arguments.push_back("--config");
+    arguments.push_back(folder_.write("fast.json", R"({"window": {"vsync": false}})"));
+  }
   if (!given("--size")) arguments.insert(arguments.end(), {"--size", "160x96"});
   if (!given("--walk") && !given(scene_)) arguments.push_back(scene_);
   const Outcome outcome = run(joined(arguments, options));
