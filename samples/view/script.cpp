@@ -23,11 +23,11 @@ struct Shape {
 };
 const std::map<std::string, Shape>& shapes() {
   static const std::map<std::string, Shape> kShapes = {
-      {"frames", {1, 1, true}},  {"settle", {0, 0, false}}, {"press", {1, 2, false}},
-      {"fly", {4, 4, true}},     {"drag", {2, 2, true}},    {"resize", {2, 2, true}},
-      {"set", {2, 2, false}},    {"choose", {2, 3, false}}, {"exposure", {1, 1, false}},
-      {"seek", {1, 1, true}},    {"random", {2, 2, true}},  {"save", {1, 1, false}},
-      {"report", {1, 1, false}}, {"quit", {0, 0, false}}};
+      {"frames", {1, 1, true}},    {"settle", {0, 0, false}}, {"press", {1, 2, false}},
+      {"seconds", {1, 1, true}},   {"fly", {4, 4, true}},     {"drag", {2, 2, true}},
+      {"resize", {2, 2, true}},    {"set", {2, 2, false}},    {"choose", {2, 3, false}},
+      {"exposure", {1, 1, false}}, {"seek", {1, 1, true}},    {"random", {2, 2, true}},
+      {"save", {1, 1, false}},     {"report", {1, 1, false}}, {"quit", {0, 0, false}}};
   return kShapes;
 }
 
@@ -143,6 +143,12 @@ bool Script::run(const Step& step, State* state, const ScriptHost& host) {
     --next_;  // Again, with the next frame.
     return true;
   }
+  if (what == "seconds") {
+    until_ =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                           std::chrono::duration<double>(std::clamp(step.number(1), 0.0, 1e6)));
+    return false;
+  }
   if (what == "frames" || what == "random" || what == "fly") {
     const size_t count = what == "fly" ? 4 : 1;
     frames_ = static_cast<uint32_t>(std::max(step.number(count), 0.0));
@@ -179,6 +185,7 @@ bool Script::run(const Step& step, State* state, const ScriptHost& host) {
 
 void Script::step(State* state, const ScriptHost& host) {
   while (true) {
+    if (Clock::now() < until_) return;
     if (frames_ > 0) {
       --frames_;
       const Step& step = steps_[next_ - 1];

@@ -2,6 +2,7 @@
 // step that can't be done ends the program with a sentence and its line.
 //
 //   frames N             let N frames pass
+//   seconds S            let S seconds pass
 //   settle               until the bakes are done and the picture rests at full resolution
 //   press KEY [shift]    a key by its name in config files
 //   fly F R U N          hold forward, right, up (-1 to 1) for N frames
@@ -17,6 +18,7 @@
 //   quit
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <random>
 #include <string>
@@ -44,6 +46,7 @@ class Script {
   bool finished() const { return next_ >= steps_.size() && frames_ == 0; }
 
  private:
+  using Clock = std::chrono::steady_clock;
   struct Step {
     int line = 0;
     std::vector<std::string> words;
@@ -60,8 +63,9 @@ class Script {
   const std::vector<Binding>& bindings_;
   std::vector<Step> steps_;
   size_t next_ = 0;
-  uint32_t frames_ = 0;  ///< Of the current step, that are left.
-  uint32_t waited_ = 0;  ///< For the scene to settle.
+  uint32_t frames_ = 0;      ///< Of the current step, that are left.
+  Clock::time_point until_;  ///< No step is done before.
+  uint32_t waited_ = 0;      ///< For the scene to settle.
   std::mt19937 random_;
 };
 
