@@ -22,7 +22,6 @@ using samples::Failure;
 using std::chrono::duration;
 
 constexpr double kRestSeconds = 0.25;  // Without a change, before the picture is drawn in full.
-constexpr double kFirstUnitsPerSecond = 1e8;
 constexpr float kLeastScale = 0.25f;
 constexpr CapabilityFlags kNeeded = kCapabilityBake | kCapabilitySky;
 
@@ -174,19 +173,8 @@ void App::frame() {
   chooseExposure(frame, seconds);
   followScene();
   followShaders();
-  const double baked = timer_.seconds("bake");
-  if (const uint64_t units = std::exchange(unitsOfSlot_[frame.slot], 0); units > 0 && baked > 0.0) {
-    const double rate = static_cast<double>(units) / baked;
-    unitsPerSecond_ = unitsPerSecond_ == 0.0 ? rate : 0.8 * unitsPerSecond_ + 0.2 * rate;
-  }
-  if (!baker_.idle()) {
-    const double rate = unitsPerSecond_ > 0.0 ? unitsPerSecond_ : kFirstUnitsPerSecond;
-    timer_.time(frame, "bake", [&] {
-      baker_.record(frame.commands,
-                    static_cast<uint64_t>(std::max(rate * options_.config.bakeSeconds, 1.0)));
-    });
-    unitsOfSlot_[frame.slot] = baker_.unitsRecorded();
-  }
+  // More while there is nothing else to do.
+  baker_.record(frame, &timer_, options_.config.bakeSeconds * (!air_ ? 6.0 : resting_ ? 2.0 : 1.0));
   takeBake();
   drawPicture(frame);
   interface_.begin();

@@ -3,7 +3,6 @@
 
 #include <alpenglow/io/walk_file.h>
 
-#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -87,8 +86,6 @@ class App {
   double walkSeconds_ = 0.0;
   std::string caption_;
   double exposure_ = 0.0, wantedExposure_ = 0.0;  ///< Shown now, and soon; 0: not known yet.
-  double unitsPerSecond_ = 0.0;                   ///< Of bakes, by the device's clock.
-  std::array<uint64_t, kFramesInFlight> unitsOfSlot_ = {};
 
   float scale_ = 1.0f;  ///< Of a side of the picture, while it moves.
   VkExtent2D drawn_ = {};

@@ -2,8 +2,13 @@
 
 #include <alpenglow/io/atmosphere_file.h>
 
+#include <algorithm>
+
 namespace alpenglow::view {
 namespace {
+
+constexpr double kFirstUnitsPerSecond = 1e8;
+constexpr int kMostPieces = 24;  // In a frame.
 
 // Whether tables of one description serve where the other is wanted, but for the quality.
 bool sameTables(const TableDesc& a, const TableDesc& b) {
@@ -67,12 +72,42 @@ void Baker::again() {
   start(false);
 }
 
-void Baker::record(VkCommandBuffer commands, uint64_t units) {
-  unitsRecorded_ = 0;
-  while (baking_ && !progress_.done && unitsRecorded_ < units) {
-    gpu_->check(recordBake(baking_->tables.get(), commands, gpu_->frame(), units - unitsRecorded_,
-                           &progress_));
-    unitsRecorded_ += progress_.unitsRecorded;
+void Baker::learn(const Frame& frame, const PassTimer& timer) {
+  const std::vector<double> seconds = timer.pieces("bake");
+  auto& pieces = pieces_[frame.slot];
+  for (size_t i = 0; i < std::min(seconds.size(), pieces.size()); ++i) {
+    const auto& [kind, units] = pieces[i];
+    const double rate = static_cast<double>(units) / std::max(seconds[i], 1e-6);
+    const auto [known, isNew] = unitsPerSecond_.emplace(kind, rate);
+    if (!isNew) known->second = 0.5 * (known->second + rate);
+  }
+  pieces.clear();
+}
+
+// What was never timed may be as slow as the slowest.
+double Baker::unitsPerSecond(const Kind& kind) const {
+  const auto known = unitsPerSecond_.find(kind);
+  if (known != unitsPerSecond_.end()) return known->second;
+  double least = kFirstUnitsPerSecond;
+  for (const auto& [other, rate] : unitsPerSecond_) least = std::min(least, rate);
+  return least;
+}
+
+void Baker::record(const Frame& frame, PassTimer* timer, double seconds) {
+  learn(frame, *timer);
+  for (int i = 0; i < kMostPieces && seconds > 0.0; ++i) {
+    if (!baking_ || progress_.done) return;
+    // The pass is that of the last call, or the one after it, which is unknown until it is
+    // recorded.
+    const Kind before = {baking_->desc.quality, progress_.passFinished ? "" : progress_.pass};
+    const double budget = std::max(seconds * unitsPerSecond(before), 1.0);
+    timer->time(frame, "bake", [&] {
+      gpu_->check(recordBake(baking_->tables.get(), frame.commands, gpu_->frame(),
+                             static_cast<uint64_t>(budget), &progress_));
+    });
+    const Kind kind = {baking_->desc.quality, progress_.pass};
+    pieces_[frame.slot].emplace_back(kind, progress_.unitsRecorded);
+    seconds -= static_cast<double>(progress_.unitsRecorded) / unitsPerSecond(kind);
   }
 }
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 
-#include "terrain/gpu.h"
+#include "pass_timer.h"
 
 namespace alpenglow::view {
 
@@ -32,8 +32,9 @@ class Baker {
   /// Bakes what is wanted anew: shaders have changed. Throws as want().
   void again();
 
-  /// Records slices of about `units` table fetches in all.
-  void record(VkCommandBuffer commands, uint64_t units);
+  /// Records slices that take about `seconds` in all, by what such slices took before; timed as
+  /// "bake".
+  void record(const Frame& frame, PassTimer* timer, double seconds);
 
   /// Once, when a bake is done: what it made. The next one starts.
   std::optional<Air> take();
@@ -42,7 +43,6 @@ class Baker {
   bool idle() const { return !baking_; }
   /// Of the bake under way.
   const BakeProgress& progress() const { return progress_; }
-  uint64_t unitsRecorded() const { return unitsRecorded_; }  ///< By the last record().
 
  private:
   struct Wish {
@@ -51,6 +51,10 @@ class Baker {
   };
   bool wanted(const Air& air, bool alsoDraft) const;
   void start(bool draft);
+  /// Work that a pass does in a second: passes differ by a factor of ten.
+  using Kind = std::pair<Quality, std::string>;
+  void learn(const Frame& frame, const PassTimer& timer);
+  double unitsPerSecond(const Kind& kind) const;
 
   const samples::Gpu* gpu_;
   Context* context_;
@@ -58,7 +62,9 @@ class Baker {
   std::optional<Air> baking_, made_;
   bool draft_ = false;  ///< What is being baked is one.
   BakeProgress progress_;
-  uint64_t unitsRecorded_ = 0;
+  std::map<Kind, double> unitsPerSecond_;
+  /// Recorded into each slot's last frame.
+  std::array<std::vector<std::pair<Kind, uint64_t>>, kFramesInFlight> pieces_;
 };
 
 }  // namespace alpenglow::view

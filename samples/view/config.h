@@ -14,7 +14,7 @@ struct Config {
   bool panel = true;
   double interfaceScale = 1.0;    ///< Besides the monitor's.
   double framesPerSecond = 20.0;  ///< Below it, moving pictures are drawn with fewer pixels.
-  double bakeSeconds = 0.008;     ///< Of a frame, that a bake takes.
+  double bakeSeconds = 0.006;     ///< Of a frame, that a bake takes.
   std::vector<Binding> bindings = defaultBindings();
 };
 

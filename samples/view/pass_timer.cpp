@@ -5,7 +5,7 @@
 namespace alpenglow::view {
 namespace {
 
-constexpr uint32_t kMostMarks = 32;
+constexpr uint32_t kMostMarks = 96;
 
 }  // namespace
 
@@ -40,9 +40,12 @@ void PassTimer::begin(const Frame& frame) {
                 history.milliseconds.end());
     history.milliseconds.back() = 0.0f;
   }
+  pieces_.clear();
   for (uint32_t i = 0; i + 1 < slot.marks; i += 2) {
-    History& history = passes_[slot.names[i / 2]];
-    history.last = static_cast<float>(1e3 * period_ * static_cast<double>(ticks[i + 1] - ticks[i]));
+    const char* name = slot.names[i / 2];
+    pieces_.emplace_back(name, period_ * static_cast<double>(ticks[i + 1] - ticks[i]));
+    History& history = passes_[name];
+    history.last = static_cast<float>(1e3 * pieces_.back().second);
     history.milliseconds.back() += history.last;
   }
   vk_.CmdResetQueryPool(frame.commands, slot.queries.get(), 0, kMostMarks);
@@ -67,6 +70,14 @@ double PassTimer::seconds() const {
   double sum = 0.0;
   for (const auto& [name, history] : passes_) sum += 1e-3 * double{history.milliseconds.back()};
   return sum;
+}
+
+std::vector<double> PassTimer::pieces(const std::string& pass) const {
+  std::vector<double> seconds;
+  for (const auto& [name, time] : pieces_) {
+    if (name == pass) seconds.push_back(time);
+  }
+  return seconds;
 }
 
 }  // namespace alpenglow::view

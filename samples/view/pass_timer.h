@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "presenter.h"
@@ -35,6 +36,8 @@ class PassTimer {
   double seconds(const std::string& pass) const;
   /// All of them.
   double seconds() const;
+  /// Seconds of each piece of that frame that time() was called for, in order.
+  std::vector<double> pieces(const std::string& pass) const;
 
  private:
   void mark(const Frame& frame, const char* pass);
@@ -49,6 +52,7 @@ class PassTimer {
   };
   Slot slots_[kFramesInFlight];
   std::map<std::string, History> passes_;
+  std::vector<std::pair<std::string, double>> pieces_;
 };
 
 }  // namespace alpenglow::view
