@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "failure.h"
 #include "terrain/landscape.h"
@@ -112,6 +113,12 @@ Plan planNeeds(const io::Scene& scene, const Needs& needs, const TableDesc& base
   char message[512] = "There is not enough memory for a plan.";
   const Status status = makePlan(scene.atmosphere, needs, base, &plan, message, sizeof message);
   if (status != Status::Ok) throw Failure(message);
+  for (uint32_t i = 0; i < kEffectCount; ++i) {
+    // keepTables turned it on, not the scene.
+    if (needs.effects[i] != Force::On || scene.effects[i] != Force::Auto) continue;
+    std::snprintf(plan.effects[i].reason, sizeof plan.effects[i].reason,
+                  "The shaders of the scene's terrain or balloons read its tables.");
+  }
   return plan;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "choices.h"
 #include "parameters.h"
@@ -32,23 +33,37 @@ void hint(const char* text) {
   if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
 }
 
+// How a number is shown. Coefficients are so small that ImGui would round them; radii are
+// so large that 4 digits don't tell them apart.
+struct Display {
+  double factor = 1.0;
+  std::string format;
+};
+Display displayOf(const Parameter& parameter) {
+  const std::string unit = parameter.unit;
+  if (unit == "1/m") return {1e6, "%.4g e-6/m"};
+  const std::string digits = parameter.most > 1e6 ? "%.8g" : "%.4g";
+  return {1.0, digits + (unit.empty() || unit.size() > 3 ? "" : " " + unit)};
+}
+
 // A slider over a parameter; a value that isn't allowed is left out, with the reason.
 void slider(State* state, const Parameter& parameter, const char* label) {
   if (parameter.find(state->scene) == nullptr) return;
-  double value = parameter.get(state->scene);
+  const Display display = displayOf(parameter);
+  double value = parameter.get(state->scene) * display.factor;
+  const double least = parameter.least * display.factor, most = parameter.most * display.factor;
   const ImGuiSliderFlags flags =
       parameter.logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
-  const std::string format =
-      std::string("%.4g") + (parameter.unit[0] != '\0' ? std::string(" ") + parameter.unit : "");
-  const bool changed = ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &parameter.least,
-                                           &parameter.most, format.c_str(), flags);
-  char range[160];
-  std::snprintf(range, sizeof range, "%s: %g to %g %s. Ctrl and click to type.",
-                parameter.name.c_str(), parameter.least, parameter.most, parameter.unit);
+  const bool changed = ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &least, &most,
+                                           display.format.c_str(), flags);
+  char range[200];
+  std::snprintf(range, sizeof range, "%s: %g to %g %s, now %g. Ctrl and click to type%s.",
+                parameter.name.c_str(), parameter.least, parameter.most, parameter.unit,
+                parameter.get(state->scene), display.factor != 1.0 ? " millionths" : "");
   hint(range);
   if (!changed) return;
   const io::Scene before = state->scene;
-  parameter.set(&state->scene, value);
+  parameter.set(&state->scene, value / display.factor);
   state->message = whyInvalid(state->scene);
   if (!state->message.empty()) state->scene = before;
 }
@@ -159,9 +174,11 @@ void showEffects(State* state, const PanelFacts& facts) {
     ImGui::PushTextWrapPos(0.0f);
     ImGui::TextDisabled("%s", choice.reason);
     ImGui::PopTextWrapPos();
-    if (choice.saves.bytes > 0 || choice.saves.units > 0) {
+    if (choice.saves.units > 0) {
       ImGui::TextDisabled("saves %.2f MB and %.3g units of a bake",
                           1e-6 * double(choice.saves.bytes), double(choice.saves.units));
+    } else if (choice.saves.bytes > 0) {
+      ImGui::TextDisabled("saves %.2f MB", 1e-6 * double(choice.saves.bytes));
     }
   }
 }
@@ -232,8 +249,13 @@ void Panel::make(State* state, const PanelFacts& facts) {
   ImGui::Begin("Alpenglow");
   ImGui::PushItemWidth(0.55f * ImGui::GetContentRegionAvail().x);
   showState(*state, facts);
-  const auto section = [](const char* name, bool open) {
-    return ImGui::CollapsingHeader(name, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  const std::vector<std::string> wanted = std::exchange(state->sections, {});
+  const auto section = [&](const std::string& title, bool open) {
+    if (!wanted.empty()) {
+      const std::string first = title.substr(0, title.find(' '));
+      ImGui::SetNextItemOpen(std::find(wanted.begin(), wanted.end(), first) != wanted.end());
+    }
+    return ImGui::CollapsingHeader(title.c_str(), open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
   };
   if (section("Sun and camera", true)) {
     showTime(state);

@@ -23,11 +23,12 @@ struct Shape {
 };
 const std::map<std::string, Shape>& shapes() {
   static const std::map<std::string, Shape> kShapes = {
-      {"frames", {1, 1, true}},    {"settle", {0, 0, false}}, {"press", {1, 2, false}},
-      {"seconds", {1, 1, true}},   {"fly", {4, 4, true}},     {"drag", {2, 2, true}},
-      {"resize", {2, 2, true}},    {"set", {2, 2, false}},    {"choose", {2, 3, false}},
-      {"exposure", {1, 1, false}}, {"seek", {1, 1, true}},    {"random", {2, 2, true}},
-      {"save", {1, 1, false}},     {"report", {1, 1, false}}, {"quit", {0, 0, false}}};
+      {"frames", {1, 1, true}},  {"settle", {0, 0, false}},   {"press", {1, 2, false}},
+      {"seconds", {1, 1, true}}, {"show", {1, 9, false}},     {"fly", {4, 4, true}},
+      {"drag", {2, 2, true}},    {"resize", {2, 2, true}},    {"set", {2, 2, false}},
+      {"choose", {2, 3, false}}, {"exposure", {1, 1, false}}, {"seek", {1, 1, true}},
+      {"random", {2, 2, true}},  {"save", {1, 1, false}},     {"report", {1, 1, false}},
+      {"quit", {0, 0, false}}};
   return kShapes;
 }
 
@@ -170,6 +171,8 @@ bool Script::run(const Step& step, State* state, const ScriptHost& host) {
     if (step.words[1] != "auto") state->scene.exposure = step.number(1);
   } else if (what == "seek") {
     host.seek(step.number(1));
+  } else if (what == "show") {
+    state->sections.assign(step.words.begin() + 1, step.words.end());
   } else if (what == "save") {
     state->screenshot = step.words[1];
     return true;

@@ -13,6 +13,7 @@
 //   exposure VALUE|auto
 //   seek SECONDS         a walk, which then halts
 //   random N SEED        change a random parameter in each of N frames
+//   show SECTION...      opens these sections of the panel, such as Air, and closes the others
 //   save FILE            .png or .exr, as the keys do
 //   report FILE          JSON: the scene, times of the frames since the last report, memory
 //   quit

@@ -4,6 +4,7 @@
 #include <alpenglow/io/scene_file.h>
 
 #include <string>
+#include <vector>
 
 namespace alpenglow::view {
 
@@ -16,11 +17,13 @@ struct State {
   bool playing = true;  ///< Of a walk.
   /// What to save at the end of the frame; empty: nothing. ".exr" or ".png".
   std::string screenshot;
+  /// Sections of the panel, by their first words, that are to be open, all others closed; empty: as
+  /// they are.
+  std::vector<std::string> sections;
   /// The last thing that went wrong, or was done: a sentence.
   std::string message;
 };
 
-/// Turns camera and sun by what a host's own camera code would: positions on the globe.
 /// Moves the camera `metres` along its own axes: forward, right and up. The sun stays where it is.
 void moveCamera(io::Scene* scene, const double metres[3]);
 

@@ -1,5 +1,5 @@
 #version 460
-// A layer of a table as a picture: its texels, unfiltered, brightened and bent to show small values too.
+// A layer of a table as a picture: its texels, unfiltered.
 #ifdef TABLE_3D
 layout(set = 0, binding = TABLE_BINDING) uniform sampler3D table;
 #else
@@ -7,7 +7,7 @@ layout(set = 0, binding = TABLE_BINDING) uniform sampler2D table;
 #endif
 layout(push_constant) uniform Shown {
   vec4 area;  // left, top, width, height, pixels of the window
-  vec4 look;  // layer, of all 1; factor; 1: logarithm over 6 decades
+  vec4 look;  // layer, of all 1; values of black and of white; 1: their logarithms
 };
 layout(location = 0) out vec4 color;
 
@@ -20,7 +20,9 @@ void main() {
   ivec2 size = textureSize(table, 0);
   vec3 value = texelFetch(table, clamp(ivec2(uv * size), ivec2(0), size - 1), 0).rgb;
 #endif
-  vec3 linear = clamp(value * look.y, 0.0, 1.0);
-  vec3 logarithm = clamp(1.0 + log2(max(value * look.y, 1e-30)) / 19.93, 0.0, 1.0);
-  color = vec4(look.z > 0.0 ? logarithm : pow(linear, vec3(1.0 / 2.2)), 1.0);
+  bool logarithm = look.w > 0.0;
+  vec3 at = logarithm ? log2(max(value, 1e-30)) : value;
+  vec2 range = logarithm ? log2(max(look.yz, 1e-30)) : look.yz;
+  vec3 share = clamp((at - range.x) / max(range.y - range.x, 1e-30), 0.0, 1.0);
+  color = vec4(logarithm ? share : pow(share, vec3(1.0 / 2.2)), 1.0);
 }

@@ -37,29 +37,35 @@ std::vector<TablePictures::Shown> TablePictures::tablesOf(const TableDesc& desc)
   const auto without = [&](Effect effect) { return !hasEffect(desc.without, effect); };
   switch (desc.solver) {
     case Solver::Moments:
-      all.push_back({"optical depth", "mu, r", 1, false});
+      all.push_back({"optical depth", "mu, r", 1, false, {0.0f, 16.0f, false}});
       if (without(Effect::MultipleScattering)) break;
-      all.push_back({"moments", "mu_s, r; five below each other", 2, false});
-      if (!without(Effect::Mie)) all.push_back({"source", "gamma and psi, mu_s; r", 3, true});
+      all.push_back({"moments",
+                     "mu_s, r; five below each other, logarithms",
+                     2,
+                     false,
+                     {-12.0f, 2.0f, false}});
+      if (!without(Effect::Mie))
+        all.push_back({"source", "gamma and psi, mu_s; r", 3, true, {0.0f, 2.0f, false}});
       break;
     case Solver::Standard:
-      all = {{"optical depth", "mu, r", 1, false},
-             {"irradiance E", "mu_s, r", 2, false},
-             {"scattering S", "mu_s and nu, mu; r", 3, true},
-             {"single Mie", "mu_s and nu, mu; r", 4, true}};
+      all = {{"optical depth", "mu, r", 1, false, {0.0f, 16.0f, false}},
+             {"irradiance E", "mu_s, r", 2, false, {1e-5f, 0.2f, true}},
+             {"scattering S", "mu_s and nu, mu; r", 3, true, {1e-5f, 1.0f, true}},
+             {"single Mie", "mu_s and nu, mu; r", 4, true, {1e-5f, 1.0f, true}}};
       break;
     case Solver::Schafhitzel:
-      all = {{"transmittance", "mu, r", 1, false},
-             {"Rayleigh", "mu, mu_s; r", 2, true},
-             {"Mie", "mu, mu_s; r", 3, true}};
+      all = {{"transmittance", "mu, r", 1, false, {0.0f, 1.0f, false}},
+             {"Rayleigh", "mu, mu_s; r", 2, true, {1e-5f, 1.0f, true}},
+             {"Mie", "mu, mu_s; r", 3, true, {1e-5f, 1.0f, true}}};
       break;
     case Solver::Hillaire:
-      all = {{"transmittance", "mu, r", 1, false}, {"multiple", "mu_s, r", 2, false}};
+      all = {{"transmittance", "mu, r", 1, false, {0.0f, 1.0f, false}},
+             {"multiple", "mu_s, r", 2, false, {1e-5f, 0.2f, true}}};
       break;
     case Solver::HoffmanPreetham:
       break;
     case Solver::ONeil:
-      all = {{"transmittance", "mu, r", 1, false}};
+      all = {{"transmittance", "mu, r", 1, false, {0.0f, 1.0f, false}}};
       break;
   }
   return all;
@@ -87,23 +93,28 @@ void TablePictures::make(const Tables* tables, const TableDesc& desc) {
     return;
   }
   chosen_ = std::min(chosen_, all.size() - 1);
-  for (size_t i = 0; i < all.size(); ++i) {
-    if (i > 0) ImGui::SameLine();
-    if (ImGui::RadioButton(all[i].name, chosen_ == i)) chosen_ = i;
+  if (ImGui::BeginCombo("table", all[chosen_].name)) {
+    for (size_t i = 0; i < all.size(); ++i) {
+      if (ImGui::Selectable(all[i].name, i == chosen_)) chosen_ = i;
+    }
+    ImGui::EndCombo();
   }
   const Shown& shown = all[chosen_];
   ImGui::TextDisabled("across, down%s: %s", shown.volume ? "; layer" : "", shown.axes);
   if (shown.volume) ImGui::SliderFloat("layer", &layer_, 0.0f, 1.0f, "%.3f of the layers");
-  ImGui::SliderFloat("brightness", &stops_, -10.0f, 20.0f, "%+.1f stops");
-  ImGui::Checkbox("logarithm (6 decades)", &logarithm_);
+  Look& look = looks_.emplace(shown.name, shown.look).first->second;
+  const float speed = 0.01f * (look.logarithm ? look.from : look.to - look.from);
+  ImGui::DragFloatRange2("black, white", &look.from, &look.to, std::max(speed, 1e-9f), 0.0f, 0.0f,
+                         "%.3g");
+  ImGui::Checkbox("logarithm", &look.logarithm);
+  if (look.logarithm) look.from = std::max(look.from, 1e-6f * look.to);
 
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = std::max(ImGui::GetContentRegionAvail().x, 16.0f);
   const float height = 0.6f * width;
   const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
-  const Push push = {
-      {at.x * pixels.x, at.y * pixels.y, width * pixels.x, height * pixels.y},
-      {std::min(layer_, 0.9999f), std::exp2(stops_), logarithm_ ? 1.0f : 0.0f, 0.0f}};
+  const Push push = {{at.x * pixels.x, at.y * pixels.y, width * pixels.x, height * pixels.y},
+                     {std::min(layer_, 0.9999f), look.from, look.to, look.logarithm ? 1.0f : 0.0f}};
   draws_.push_back({this, pipelineFor(shown), tableSet(tables), push});
   ImDrawList* list = ImGui::GetWindowDrawList();
   list->AddCallback(draw, &draws_.back());

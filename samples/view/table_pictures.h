@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <map>
+#include <string>
 #include <vector>
 
 #include "presenter.h"
@@ -23,12 +24,18 @@ class TablePictures {
   void make(const Tables* tables, const TableDesc& desc);
 
  private:
+  /// The values from black to white; of positive ones perhaps their logarithms.
+  struct Look {
+    float from, to;
+    bool logarithm;
+  };
   /// A binding of tableSet(), as alpenglow/*_tables.glsl declare them.
   struct Shown {
     const char* name;
     const char* axes;
     uint32_t binding;
     bool volume;
+    Look look;  ///< That shows most of it, of an air like the Earth's.
   };
   static std::vector<Shown> tablesOf(const TableDesc& desc);
   VkPipeline pipelineFor(const Shown& shown);
@@ -51,8 +58,8 @@ class TablePictures {
   std::map<std::pair<uint32_t, bool>, samples::Owned<VkPipeline>> pipelines_;
   std::deque<Draw> draws_;  ///< Of this frame.
   size_t chosen_ = 0;
-  float layer_ = 0.0f, stops_ = 0.0f;
-  bool logarithm_ = false;
+  float layer_ = 0.0f;
+  std::map<std::string, Look> looks_;  ///< By the table's name.
 };
 
 }  // namespace alpenglow::view
