@@ -1,10 +1,11 @@
 # alpenglow_add_test(NAME name SOURCES file... [LIBS target...] [LABELS label...] [TIMEOUT seconds]
-#                    [PROCESS] [POISON])
+#                    [PROCESS] [POISON | POISON_LONG])
 #
 # A GoogleTest program build/bin/<name>, with main() from GTest::gtest_main unless it has its own.
 # Each of its tests becomes a CTest of its own, found when CTest runs; with PROCESS the program is
 # one CTest instead (for tests that share a costly fixture). Vulkan means lavapipe, wherever the
-# tests run. POISON runs it a second time, named poison.*, with new device memory filled with 0x80.
+# tests run. POISON runs it a second time, named poison.*, with new device memory filled with 0x80;
+# POISON_LONG does so with the label long, where that takes the better part of a minute.
 
 set(ALPENGLOW_TEST_DRIVER "/usr/share/vulkan/icd.d/lvp_icd.x86_64.json" CACHE FILEPATH
     "Vulkan driver manifest that the tests use")
@@ -14,7 +15,7 @@ if(ALPENGLOW_BUILD_TESTS)
 endif()
 
 function(alpenglow_add_test)
-  cmake_parse_arguments(PARSE_ARGV 0 arg "PROCESS;POISON" "NAME;TIMEOUT" "SOURCES;LIBS;LABELS")
+  cmake_parse_arguments(PARSE_ARGV 0 arg "PROCESS;POISON;POISON_LONG" "NAME;TIMEOUT" "SOURCES;LIBS;LABELS")
   if(arg_UNPARSED_ARGUMENTS OR NOT arg_NAME OR NOT arg_SOURCES)
     message(FATAL_ERROR "alpenglow_add_test needs NAME and SOURCES; unknown arguments: "
                         "\"${arg_UNPARSED_ARGUMENTS}\"")
@@ -27,7 +28,10 @@ function(alpenglow_add_test)
                                             GTest::gtest_main)
   set(environment "VK_DRIVER_FILES=${ALPENGLOW_TEST_DRIVER}")
   alpenglow_register_test("" "${environment}")
-  if(arg_POISON)
+  if(arg_POISON_LONG)
+    list(APPEND arg_LABELS long)
+  endif()
+  if(arg_POISON OR arg_POISON_LONG)
     alpenglow_register_test("poison." "${environment};LVP_POISON_MEMORY=1")
   endif()
 endfunction()

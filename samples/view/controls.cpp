@@ -164,6 +164,8 @@ void press(State* state, Action action, bool shift) {
       return;
     case Action::Reset:
       state->scene = state->start;
+      std::fill_n(state->balance, 3, 1.0f);
+      state->message.clear();
       return;
     case Action::Quit:
       state->quit = true;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "choices.h"
+#include "controls.h"
 #include "parameters.h"
 #include "table_pictures.h"
 
@@ -198,6 +199,14 @@ void showCost(const PanelFacts& facts) {
   ImGui::Text("%llu images, %llu buffers, %llu pipelines",
               static_cast<unsigned long long>(r.images), static_cast<unsigned long long>(r.buffers),
               static_cast<unsigned long long>(r.pipelines));
+  if (facts.air != nullptr) {
+    const Plan& plan = facts.air->plan;
+    for (uint32_t i = 0; i < plan.tableCount; ++i) {
+      const PlanTable& table = plan.tables[i];
+      ImGui::BulletText("%s, %u x %u x %u: %.2f MB", table.name, table.width, table.height,
+                        table.depth, 1e-6 * double(table.bytes));
+    }
+  }
   ImGui::TextDisabled("Where nothing moves nothing is drawn, and a pass shows its last time.");
 }
 
@@ -245,7 +254,12 @@ void Panel::make(State* state, const PanelFacts& facts) {
   const ImGuiIO& io = ImGui::GetIO();
   const float width = std::min(26.0f * ImGui::GetFontSize(), 0.6f * io.DisplaySize.x);
   ImGui::SetNextWindowPos({0.0f, 0.0f}, ImGuiCond_FirstUseEver);
-  ImGui::SetNextWindowSize({width, io.DisplaySize.y}, ImGuiCond_FirstUseEver);
+  // As high as the program's window, whenever that changes.
+  const bool other = io.DisplaySize.x != window_[0] || io.DisplaySize.y != window_[1];
+  ImGui::SetNextWindowSize({width, io.DisplaySize.y},
+                           other ? ImGuiCond_Always : ImGuiCond_FirstUseEver);
+  window_[0] = io.DisplaySize.x;
+  window_[1] = io.DisplaySize.y;
   ImGui::Begin("Alpenglow");
   ImGui::PushItemWidth(0.55f * ImGui::GetContentRegionAvail().x);
   showState(*state, facts);
@@ -279,7 +293,7 @@ void Panel::make(State* state, const PanelFacts& facts) {
   }
   if (section("Cost", false)) showCost(facts);
   ImGui::Separator();
-  if (ImGui::Button("Back to the start")) state->scene = state->start;
+  if (ImGui::Button("Back to the start")) press(state, Action::Reset, false);
   ImGui::SameLine();
   if (ImGui::Button("Keys (F1)")) state->help = !state->help;
   ImGui::SameLine();

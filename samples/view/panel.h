@@ -39,6 +39,7 @@ class Panel {
 
  private:
   std::unique_ptr<TablePictures> tables_;
+  float window_[2] = {};  ///< Size that the last frame had.
 };
 
 }  // namespace alpenglow::view

@@ -63,6 +63,30 @@ TEST_F(ViewerPicture, TerrainWithShaftsIsTheRenderToo) {
   EXPECT_LT(differing(read("seen.exr"), rendered(scene_, "160x96"), 0.02), 0.01);
 }
 
+TEST_F(ViewerPicture, StarsAtNightAreThoseOfTheRender) {
+  json text = json::parse(contentsOf(scene_));
+  text["sun"]["elevation_deg"] = -40;
+  text["camera"]["pitch_deg"] = 40;
+  const std::string dark = folder_.write("dark.json", text.dump());
+  text["stars"] = {{"sidereal_hours", 6.0}};
+  scene_ = folder_.write("stars.json", text.dump());
+  play("settle\nsave @seen.exr\nchoose stars off\nsettle\nsave @dark.exr\n");
+  EXPECT_LT(differing(read("seen.exr"), rendered(scene_, "160x96"), 0.01), 1e-3);
+  EXPECT_LT(differing(read("dark.exr"), rendered(dark, "160x96"), 0.01), 1e-3);
+  const io::LinearImage stars = read("seen.exr"), sky = read("dark.exr");
+  EXPECT_GT(*std::max_element(stars.pixels.begin(), stars.pixels.end()),
+            10.0f * *std::max_element(sky.pixels.begin(), sky.pixels.end()));
+}
+
+TEST_F(ViewerPicture, MovesWithFewerPixelsWhereItIsSlowAndRestsWithAll) {
+  const std::string config =
+      folder_.write("hasty.json", R"({ "frames_per_second": 1000, "window": { "vsync": false } })");
+  play("settle\nfly 0.2 0 0.1 40\nreport @moving.json\nsettle\nreport @resting.json\n",
+       {"--config", config, "--size", "640x360"});
+  EXPECT_LT(report("moving.json")["drawn"][0], 500);
+  EXPECT_EQ(report("resting.json")["drawn"], json::parse("[640, 360]"));
+}
+
 TEST_F(ViewerPicture, FollowsTheWindowsSize) {
   play(
       "settle\nresize 300 200\nsettle\nreport @a.json\nsave @a.exr\nresize 90 400\nframes 2\n"
