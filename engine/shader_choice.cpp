@@ -18,7 +18,7 @@ Status refuse(const Device& device, const Shader& shader, const char* what) {
 const SpirvResource* find(const SpirvInterface& interface, const SpirvResource& wanted) {
   for (const SpirvResource& resource : interface.resources) {
     if (resource.set == wanted.set && resource.binding == wanted.binding &&
-        resource.kind == wanted.kind) {
+        resource.kind == wanted.kind && resource.count == wanted.count) {
       return &resource;
     }
   }

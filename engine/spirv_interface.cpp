@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
+#include <utility>
 
 namespace alpenglow::engine {
 namespace {
@@ -10,6 +12,10 @@ namespace {
 enum Op : uint32_t {
   kEntryPoint = 15,
   kExecutionMode = 16,
+  kTypeInt = 21,
+  kTypeFloat = 22,
+  kTypeVector = 23,
+  kTypeMatrix = 24,
   kTypeImage = 25,
   kTypeSampler = 26,
   kTypeSampledImage = 27,
@@ -17,12 +23,15 @@ enum Op : uint32_t {
   kTypeRuntimeArray = 29,
   kTypeStruct = 30,
   kTypePointer = 32,
+  kConstant = 43,
+  kSpecConstant = 50,
   kVariable = 59,
   kDecorate = 71,
   kMemberDecorate = 72,
 };
 constexpr uint32_t kMagic = 0x07230203, kLocalSize = 17;
 constexpr uint32_t kBufferBlock = 3, kBinding = 33, kDescriptorSet = 34, kOffset = 35;
+constexpr uint32_t kArrayStride = 6, kMatrixStride = 7;
 constexpr uint32_t kUniformConstant = 0, kUniform = 2, kPushConstant = 9, kStorageBuffer = 12;
 constexpr size_t kHeaderWords = 5;
 constexpr uint32_t kMostIds = 1u << 20;  // Our largest shader has some thousands.
@@ -35,7 +44,14 @@ struct Id {
   uint32_t shape = 0;    ///< Of an image: dimensions, arrayed, sampled.
   bool bufferBlock = false, hasSet = false, hasBinding = false;
   uint32_t set = 0, binding = 0;
-  uint32_t end = 0;  ///< Of a structure: the greatest offset of a member.
+  uint64_t size = 0;   ///< Of a type in a block, bytes.
+  uint32_t count = 0;  ///< Of an array its length; of a constant its value.
+  uint32_t stride = 0;
+};
+
+/// Where a structure's member lies.
+struct Member {
+  uint32_t offset = 0, matrixStride = 0;
 };
 
 /// One instruction: its words without the first.
@@ -55,7 +71,7 @@ class Module {
       case kEntryPoint:
         return addEntryPoint(i, out);
       case kExecutionMode:
-        if (i.count >= 5 && i.words[1] == kLocalSize) {
+        if (i.count >= 5 && i.words[1] == kLocalSize && i.words[0] == main_) {
           std::copy_n(i.words + 2, 3, out->localSize);
         }
         return i.count >= 2;
@@ -64,12 +80,30 @@ class Module {
         ids_[i.words[0]].shape = i.words[2] | i.words[4] << 8 | i.words[5] << 9 | i.words[6] << 10;
         return true;
       case kTypeSampledImage:
-      case kTypeArray:
       case kTypeRuntimeArray:
         return i.count >= 2 && define(i, i.words[1]);
       case kTypeSampler:
-      case kTypeStruct:
         return i.count >= 1 && define(i, 0);
+      case kTypeInt:
+      case kTypeFloat:
+        if (i.count < 2 || !define(i, 0)) return false;
+        ids_[i.words[0]].size = i.words[1] / 8;
+        return true;
+      case kTypeVector:
+      case kTypeMatrix:
+        if (i.count < 3 || !define(i, i.words[1])) return false;
+        ids_[i.words[0]].count = i.words[2];
+        ids_[i.words[0]].size = ids_[i.words[1]].size * i.words[2];
+        return true;
+      case kTypeArray:
+        return addArray(i);
+      case kTypeStruct:
+        return addStruct(i);
+      case kConstant:
+      case kSpecConstant:
+        if (i.count < 3 || i.words[1] >= ids_.size()) return false;
+        ids_[i.words[1]].count = i.words[2];
+        return true;
       case kTypePointer:
         return i.count >= 3 && define(i, i.words[2]);
       case kVariable:
@@ -82,8 +116,10 @@ class Module {
         return decorate(i);
       case kMemberDecorate:
         if (i.count < 3 || i.words[0] >= ids_.size()) return false;
-        if (i.words[2] == kOffset && i.count >= 4) {
-          ids_[i.words[0]].end = std::max(ids_[i.words[0]].end, i.words[3]);
+        if (i.count < 4) return true;
+        if (i.words[2] == kOffset) members_[{i.words[0], i.words[1]}].offset = i.words[3];
+        if (i.words[2] == kMatrixStride) {
+          members_[{i.words[0], i.words[1]}].matrixStride = i.words[3];
         }
         return true;
       default:
@@ -94,10 +130,11 @@ class Module {
   void collect(SpirvInterface* out) const {
     for (const Id& variable : ids_) {
       if (variable.op != kVariable) continue;
-      const Id* type = pointee(variable);
+      uint32_t count = 1;
+      const Id* type = pointee(variable, &count);
       if (variable.storage == kPushConstant) {
         out->pushConstants = true;
-        out->pushConstantEnd = std::max(out->pushConstantEnd, type->end);
+        out->pushConstantEnd = std::max(out->pushConstantEnd, type->size);
       }
       if (!variable.hasSet && !variable.hasBinding) continue;
       const uint32_t storage =
@@ -105,7 +142,7 @@ class Module {
       uint32_t kind = storage << 24 | type->op << 16;
       if (type->op == kTypeSampledImage) kind |= ids_[type->type].shape;
       if (type->op == kTypeImage) kind |= type->shape;
-      out->resources.push_back({variable.set, variable.binding, kind});
+      out->resources.push_back({variable.set, variable.binding, kind, count});
     }
   }
 
@@ -117,10 +154,37 @@ class Module {
     return true;
   }
 
+  // Types come after what they are made of, and after their decorations.
+  bool addArray(const Instruction& i) {
+    if (i.count < 3 || i.words[2] >= ids_.size() || !define(i, i.words[1])) return false;
+    Id& id = ids_[i.words[0]];
+    id.count = ids_[i.words[2]].count;
+    id.size = id.count * std::max<uint64_t>(id.stride, ids_[i.words[1]].size);
+    return true;
+  }
+
+  bool addStruct(const Instruction& i) {
+    if (i.count < 1 || !define(i, 0)) return false;
+    uint64_t end = 0;
+    for (uint32_t k = 1; k < i.count; ++k) {
+      if (i.words[k] >= ids_.size()) return false;
+      const Id& type = ids_[i.words[k]];
+      const auto found = members_.find({i.words[0], k - 1});
+      const Member member = found == members_.end() ? Member{} : found->second;
+      const uint64_t size = type.op == kTypeMatrix && member.matrixStride != 0
+                                ? uint64_t{member.matrixStride} * type.count
+                                : type.size;
+      end = std::max(end, member.offset + size);
+    }
+    ids_[i.words[0]].size = end;
+    return true;
+  }
+
   bool decorate(const Instruction& i) {
     if (i.count < 2 || i.words[0] >= ids_.size()) return false;
     Id& id = ids_[i.words[0]];
     if (i.words[1] == kBufferBlock) id.bufferBlock = true;
+    if (i.words[1] == kArrayStride && i.count >= 3) id.stride = i.words[2];
     if (i.words[1] != kBinding && i.words[1] != kDescriptorSet) return true;
     if (i.count < 3) return false;
     const bool binding = i.words[1] == kBinding;
@@ -129,27 +193,32 @@ class Module {
     return true;
   }
 
-  static bool addEntryPoint(const Instruction& i, SpirvInterface* out) {
+  bool addEntryPoint(const Instruction& i, SpirvInterface* out) {
     if (i.count < 3) return false;
     const uint32_t main[] = {0x6E69616Du, 0};  // "main", as words.
     if (i.count < 4 || std::memcmp(i.words + 2, main, sizeof main) != 0) return true;
     out->hasMain = true;
     out->model = i.words[0];
+    main_ = i.words[1];
     return true;
   }
 
-  // What a variable is, without pointers and arrays. A chain of more steps than this is no type.
-  const Id* pointee(const Id& variable) const {
+  // What a variable is, without pointers and arrays, and how many of it. A chain of more steps than
+  // this is no type.
+  const Id* pointee(const Id& variable, uint32_t* count) const {
     const Id* type = &ids_[variable.type];
     for (int i = 0; i < 8; ++i) {
       if (type->op != kTypePointer && type->op != kTypeArray && type->op != kTypeRuntimeArray)
         break;
+      if (type->op != kTypePointer) *count *= type->count;  // 0 of a runtime array.
       type = &ids_[type->type];
     }
     return type;
   }
 
   std::vector<Id> ids_;
+  std::map<std::pair<uint32_t, uint32_t>, Member> members_;
+  uint32_t main_ = 0;  ///< The id of its function.
 };
 
 }  // namespace

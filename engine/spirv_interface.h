@@ -12,6 +12,7 @@ namespace alpenglow::engine {
 struct SpirvResource {
   uint32_t set = 0, binding = 0;
   uint32_t kind = 0;
+  uint32_t count = 1;  ///< Of an array its length; 0 where it has none.
 };
 
 struct SpirvInterface {
@@ -19,7 +20,7 @@ struct SpirvInterface {
   uint32_t model = 0;          ///< Execution model of the entry point "main".
   uint32_t localSize[3] = {};  ///< Of compute; 0 where constants decide.
   bool pushConstants = false;
-  uint32_t pushConstantEnd = 0;  ///< Offset of the last member of the block.
+  uint64_t pushConstantEnd = 0;  ///< Bytes from the block's first to its last, and the offset.
   std::vector<SpirvResource> resources;
 };
 

@@ -75,7 +75,7 @@ void runRender(const RenderArguments& arguments) {
   const std::string& output = arguments.run.output;
   checkEnding(output, {".exr", ".png"});
   io::Scene scene = take(io::readScene(samples::findSample("scenes", arguments.scene)));
-  checkScenery(scene);
+  samples::checkScenery(scene);
   if (!arguments.size.empty()) parsePictureSize(arguments.size, &scene.width, &scene.height);
   std::optional<io::AlbedoMap> albedo;
   if (!scene.albedoMap.empty()) albedo = take(io::readAlbedoMap(scene.albedoMap));

@@ -11,9 +11,6 @@
 
 namespace alpenglow::cli {
 
-/// Throws a Failure for a scene that can't be drawn.
-void checkScenery(const io::Scene& scene);
-
 /// Read before there is a device. Throws.
 struct SceneryFiles {
   std::optional<samples::TerrainMesh> mesh;

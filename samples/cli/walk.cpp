@@ -8,6 +8,7 @@
 
 #include "commands.h"
 #include "common/sample_files.h"
+#include "common/scene_plan.h"
 #include "failure.h"
 #include "frame_list.h"
 #include "progress.h"
@@ -80,7 +81,7 @@ void runWalk(const RenderArguments& arguments) {
   const std::vector<uint32_t> frames =
       parseFrames(arguments.frames.value_or("0-" + std::to_string(count - 1)), count);
   const std::vector<io::Scene> scenes = keyScenes(walk);
-  for (const io::Scene& scene : scenes) checkScenery(scene);
+  for (const io::Scene& scene : scenes) samples::checkScenery(scene);
   std::optional<io::AlbedoMap> albedo;
   if (!unmoved.albedoMap.empty()) albedo = take(io::readAlbedoMap(unmoved.albedoMap));
   TableRequest request = requestAll(arguments.tables, scenes);

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <vector>
 
 #include "failure.h"
@@ -23,6 +24,20 @@ std::vector<fs::path> dataFolders() {
   return folders;
 }
 
+// ", such as a, b", of all samples of a kind.
+std::string namesOf(const std::string& kind) {
+  std::set<std::string> names;
+  std::error_code code;
+  for (const fs::path& folder : dataFolders()) {
+    for (const auto& entry : fs::directory_iterator(folder / kind, code)) {
+      if (entry.path().extension() == ".json") names.insert(entry.path().stem().string());
+    }
+  }
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "; samples are " : ", ") + name;
+  return text;
+}
+
 }  // namespace
 
 std::string findSample(const std::string& kind, const std::string& nameOrPath) {
@@ -35,7 +50,8 @@ std::string findSample(const std::string& kind, const std::string& nameOrPath) {
   }
   if (!fs::exists(nameOrPath, code)) {
     throw Failure("There is no sample " + kind.substr(0, kind.size() - 1) + " and no file named '" +
-                  nameOrPath + "'.");
+                  nameOrPath + "'" +
+                  (nameOrPath.find('/') == std::string::npos ? namesOf(kind) : "") + ".");
   }
   return nameOrPath;
 }

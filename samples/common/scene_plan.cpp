@@ -57,6 +57,18 @@ void keepTables(const io::Scene& scene, Needs* needs) {
 
 }  // namespace
 
+void checkScenery(const io::Scene& scene) {
+  if (scene.stars && io::solverOf(scene.model)) {
+    throw Failure("The scene has stars and the model " + io::modelName(scene.model) +
+                  ", but stars are dimmed by tables of the model bruneton.");
+  }
+  if (scene.camera.projection != Projection::Fisheye) return;
+  if (!scene.terrain && scene.balloons.empty()) return;
+  throw Failure(std::string("The scene has ") + (scene.terrain ? "a terrain" : "balloons") +
+                " and a fisheye camera, but triangles are drawn only in perspective and "
+                "orthographic pictures.");
+}
+
 SkyDraw describeDraw(const io::Scene& scene) {
   const io::SceneCamera& c = scene.camera;
   SkyDraw draw;

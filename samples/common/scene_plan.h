@@ -5,6 +5,10 @@
 
 namespace alpenglow::samples {
 
+/// Throws a Failure for what the samples don't draw: triangles with a fisheye camera, stars with a
+/// simpler model.
+void checkScenery(const io::Scene& scene);
+
 /// Camera, sun and viewport of a scene's picture.
 SkyDraw describeDraw(const io::Scene& scene);
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <thread>
 
 #include "common/failure.h"
 #include "common/scene_plan.h"
@@ -31,7 +33,7 @@ void keepError(void* user, const Diagnostic& diagnostic) {
   }
 }
 
-// The most pixels that a window on the first monitor can have.
+// The most pixels that a window on one of the monitors can have.
 VkExtent2D mostPixels(const Window& window) {
   VkExtent2D size = window.size();
   int count = 0;
@@ -143,6 +145,7 @@ size_t App::run() {
                               [this](double seconds) {
                                 walkSeconds_ = seconds;
                                 state_.playing = false;
+                                return options_.walk.has_value();
                               },
                               [this](const std::string& path) { report(path); }});
       if (script_->finished()) script_.reset();
@@ -162,7 +165,7 @@ void App::frame() {
   followWalk(seconds);
   Frame frame;
   if (!host_.presenter->begin(&frame)) {
-    window_.poll(0.02);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
     return;
   }
   frameTimes_ms_.push_back(static_cast<float>(1e3 * seconds));
@@ -225,25 +228,31 @@ void App::followScene() {
   try {
     const Plan plan =
         samples::planNeeds(scene, samples::needsOfFlight(scene), samples::tablesOf(scene));
-    if (baker_.want(scene.atmosphere, plan) && air_) {
-      air_->plan = plan;  // Other pipelines may be called for.
-      prepareStage();
-    }
+    const bool all = baker_.want(scene.atmosphere, plan);
     state_.message.clear();
+    if (all && air_) {  // Other pipelines may be called for.
+      Air air = *air_;
+      air.plan = plan;
+      show(air);
+    }
   } catch (const std::exception& reason) {
     if (first) throw;
-    // As it was; the user reads why.
-    state_.message = reason.what();
-    io::Scene& now = state_.scene;
-    now.atmosphere = before.atmosphere;
-    now.model = before.model;
-    now.solver = before.solver;
-    now.quality = before.quality;
-    now.orders = before.orders;
-    now.shafts = before.shafts;
-    std::copy_n(before.effects, kEffectCount, now.effects);
-    planned_ = before;
+    goBack(before, reason.what());
   }
+}
+
+// The scene's air and method are what they were before; the user reads why.
+void App::goBack(const io::Scene& before, const std::string& why) {
+  state_.message = why;
+  io::Scene& now = state_.scene;
+  now.atmosphere = before.atmosphere;
+  now.model = before.model;
+  now.solver = before.solver;
+  now.quality = before.quality;
+  now.orders = before.orders;
+  now.shafts = before.shafts;
+  std::copy_n(before.effects, kEffectCount, now.effects);
+  planned_ = before;
 }
 
 // Pipelines of what was edited. What the library refuses is taken back, and the old code stays.
@@ -266,22 +275,35 @@ void App::followShaders() {
 }
 
 void App::takeBake() {
-  std::optional<Air> made = baker_.take();
-  if (!made) return;
-  air_ = std::move(made);
-  prepareStage();
+  const std::optional<Air> made = baker_.take();
+  if (made) show(*made);
+  if (const std::string why = baker_.takeRefusal(); !why.empty()) state_.message = why;
+}
+
+// Draws with it from now on; where the stage can't, all is as it was.
+void App::show(const Air& air) {
+  const std::optional<Air> before = air_;
+  const io::Scene sceneBefore = shownScene_;
+  air_ = air;
+  try {
+    prepareStage();
+  } catch (const std::exception& reason) {
+    if (!before) throw;
+    air_ = before;
+    goBack(sceneBefore, reason.what());
+    baker_.keep(*before);
+    prepareStage();
+  }
 }
 
 void App::prepareStage() {
   stage_.prepare(planned_, *air_);
+  shownScene_ = planned_;
   stale_ = true;
 }
 
 // While the scene changes, as few pixels as keep the frame rate; all of them once it rests.
-VkExtent2D App::chooseSize(const Frame& frame) {
-  const VkExtent2D most = picture_.target().extent();
-  const VkExtent2D full = {std::min(frame.size.width, most.width),
-                           std::min(frame.size.height, most.height)};
+VkExtent2D App::chooseSize(VkExtent2D full) {
   const bool moving = duration<double>(Clock::now() - lastChange_).count() < kRestSeconds;
   if (!moving || !state_.screenshot.empty()) return full;
   const double seconds = timer_.seconds() - timer_.seconds("bake");
@@ -311,9 +333,12 @@ void App::drawPicture(const Frame& frame) {
   if (changed) lastChange_ = Clock::now();
   shown_ = now;
   stale_ = false;
-  const VkExtent2D size = chooseSize(frame);
+  const VkExtent2D most = picture_.target().extent();
+  const VkExtent2D full = {std::min(frame.size.width, most.width),
+                           std::min(frame.size.height, most.height)};
+  const VkExtent2D size = chooseSize(full);
   const bool sameSize = size.width == drawn_.width && size.height == drawn_.height;
-  resting_ = size.width == frame.size.width && size.height == frame.size.height && now.tables;
+  resting_ = size.width == full.width && size.height == full.height && now.tables;
   if (!changed && sameSize) return;
   drawn_ = size;
   now.draw.viewport.extent = size;
@@ -351,7 +376,9 @@ void App::makePanel() {
   resourceReport(host_.context, &facts.resources);
   facts.device = host_.device->name();
   facts.exposure = state_.scene.exposure.value_or(exposure_);
-  facts.frame_ms = frameTimes_ms_.empty() ? 0.0f : frameTimes_ms_.back();
+  facts.resting = settled();
+  if (!facts.resting) lastFrame_ms_ = frameTimes_ms_.back();
+  facts.frame_ms = lastFrame_ms_;
   facts.scale = scale_;
   facts.drawn = drawn_;
   facts.caption = caption_;
@@ -371,7 +398,9 @@ void App::saveScreenshot() {
     for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] *= state_.balance[i % 3];
     done = io::writePng(path, io::toneMapped(image, exposure, state_.scene.toneMap));
   }
-  state_.message = done ? "Saved '" + path + "'." : done.error;
+  state_.message =
+      done ? "Saved '" + std::filesystem::absolute(path).lexically_normal().string() + "'."
+           : done.error;
   if (!done && !options_.script.empty()) throw Failure(done.error);
 }
 

@@ -59,8 +59,10 @@ class App {
   void followScene();
   void followShaders();
   void takeBake();
+  void show(const Air& air);
+  void goBack(const io::Scene& before, const std::string& why);
   void prepareStage();
-  VkExtent2D chooseSize(const Frame& frame);
+  VkExtent2D chooseSize(VkExtent2D full);
   void drawPicture(const Frame& frame);
   void chooseExposure(const Frame& frame, double seconds);
   void makePanel();
@@ -81,7 +83,8 @@ class App {
   std::optional<Air> air_;  ///< What is drawn with.
   State state_;
 
-  io::Scene planned_;  ///< The scene that the last plan was made for.
+  io::Scene planned_;     ///< The scene that the last plan was made for.
+  io::Scene shownScene_;  ///< The one that the stage was prepared for.
   bool hasPlan_ = false;
   double walkSeconds_ = 0.0;
   std::string caption_;
@@ -99,6 +102,7 @@ class App {
   bool stale_ = true;     ///< Pipelines have changed since.
   bool resting_ = false;  ///< The last frame drew, or kept, the picture at full resolution.
   Clock::time_point lastFrame_ = Clock::now(), lastChange_ = Clock::now();
+  float lastFrame_ms_ = 0.0f;         ///< While something moved.
   std::vector<float> frameTimes_ms_;  ///< Since the last report.
 };
 

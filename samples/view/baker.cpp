@@ -14,7 +14,7 @@ constexpr int kMostPieces = 24;  // In a frame.
 bool sameTables(const TableDesc& a, const TableDesc& b) {
   return a.solver == b.solver && a.orders == b.orders && a.without == b.without &&
          a.sunZenithFrom == b.sunZenithFrom && a.sunZenithTo == b.sunZenithTo &&
-         a.samples == b.samples;
+         a.samples == b.samples && a.mie == b.mie;
 }
 
 bool hasDraft(const TableDesc& desc) {
@@ -49,16 +49,17 @@ void Baker::start(bool draft) {
 
 bool Baker::want(const Parameters& parameters, const Plan& plan) {
   const Wish before = std::exchange(wish_, {parameters, plan});
-  try {
-    if (baking_ && (draft_ || wanted(*baking_, false))) {
-      baking_->plan = plan;
-      return false;
-    }
+  if (baking_ && (draft_ || wanted(*baking_, false))) {
+    // A draft of other tables keeps the plan that it was made by.
+    if (sameTables(baking_->desc, plan.tableDesc)) baking_->plan = plan;
+    return false;
+  }
+  if (made_ && wanted(*made_, false)) {
     baking_.reset();
-    if (made_ && wanted(*made_, false)) {
-      made_->plan = plan;
-      return true;
-    }
+    made_->plan = plan;
+    return true;
+  }
+  try {
     start(hasDraft(plan.tableDesc));
   } catch (...) {
     wish_ = before;
@@ -68,8 +69,14 @@ bool Baker::want(const Parameters& parameters, const Plan& plan) {
 }
 
 void Baker::again() {
-  baking_.reset();
+  made_.reset();
   start(false);
+}
+
+void Baker::keep(const Air& air) {
+  wish_ = {air.parameters, air.plan};
+  baking_.reset();
+  made_ = air;
 }
 
 void Baker::learn(const Frame& frame, const PassTimer& timer) {
@@ -116,7 +123,11 @@ std::optional<Air> Baker::take() {
   made_ = std::exchange(baking_, std::nullopt);
   if (!wanted(*made_, false)) {
     // The draft of what is wanted, or, where that has changed since, first a draft of it.
-    start(!wanted(*made_, true) && hasDraft(wish_.plan.tableDesc));
+    try {
+      start(!wanted(*made_, true) && hasDraft(wish_.plan.tableDesc));
+    } catch (const std::exception& reason) {
+      refusal_ = reason.what();
+    }
   }
   return made_;
 }

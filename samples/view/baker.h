@@ -31,16 +31,22 @@ class Baker {
 
   /// Bakes what is wanted anew: shaders have changed. Throws as want().
   void again();
+  /// Wants what this one is, or would be in full, and nothing else.
+  void keep(const Air& air);
 
   /// Records slices that take about `seconds` in all, by what such slices took before; timed as
   /// "bake".
   void record(const Frame& frame, PassTimer* timer, double seconds);
 
-  /// Once, when a bake is done: what it made. The next one starts.
+  /// Once, when a bake is done: what it made. The next one starts; where it can't, takeRefusal()
+  /// has the sentence, once.
   std::optional<Air> take();
+  std::string takeRefusal() { return std::exchange(refusal_, ""); }
 
   /// All that is wanted was made.
   bool idle() const { return !baking_; }
+  /// What is being baked is of draft quality, until the wanted one is ready.
+  bool draft() const { return draft_; }
   /// Of the bake under way.
   const BakeProgress& progress() const { return progress_; }
 
@@ -62,6 +68,7 @@ class Baker {
   std::optional<Air> baking_, made_;
   bool draft_ = false;  ///< What is being baked is one.
   BakeProgress progress_;
+  std::string refusal_;
   std::map<Kind, double> unitsPerSecond_;
   /// Recorded into each slot's last frame.
   std::array<std::vector<std::pair<Kind, uint64_t>>, kFramesInFlight> pieces_;

@@ -68,16 +68,22 @@ class Reader {
     config->width = value[0];
     config->height = value[1];
   }
-  void readKey(const Json& value, Binding* binding) const {
+  void readKey(const Json& value, Binding* binding) {
     const int key = value.is_string() ? keyNamed(value.get<std::string>()) : 0;
     if (key == 0) {
       refuse("keys." + std::string(binding->name), value,
              "a key such as \"W\", \"7\", \"F1\", \"Left\", \"Space\" or \"LeftShift\"");
     }
+    const auto [other, isNew] = given_.emplace(key, binding->name);
+    if (!isNew) {
+      refuse("keys." + std::string(binding->name), value,
+             "another key than that of keys." + other->second);
+    }
     binding->key = key;
   }
 
  private:
+  std::map<int, std::string> given_;
   const std::string& path_;
 };
 
@@ -89,10 +95,14 @@ Config readConfig(const std::string& path) {
   try {
     json = Json::parse(text, nullptr, true, true);  // With comments.
   } catch (const Json::exception& error) {
-    throw Failure("The config file '" + path + "' is no JSON with comments: " + error.what() + ".");
+    // "[json.exception.parse_error.101] parse error at line 1, column 2: text".
+    const std::string what = error.what();
+    const size_t bracket = what.find("] ");
+    throw Failure("The config file '" + path + "' is no JSON with comments: " +
+                  (bracket == std::string::npos ? what : what.substr(bracket + 2)) + ".");
   }
   Config config;
-  const Reader reader(path);
+  Reader reader(path);
   Reader::Fields keys;
   for (Binding& binding : config.bindings) {
     keys[binding.name] = [&](const Json& value) { reader.readKey(value, &binding); };

@@ -196,7 +196,8 @@ void control(State* state, Window* window, const std::vector<Binding>& bindings,
   window->drag(mouseFree, moved);
   if (moved[0] != 0.0 || moved[1] != 0.0) turn(&state->scene, moved, window->size().height);
   if (!keyboardFree) return;
-  for (const KeyPress& key : window->presses) {
+  for (const KeyEvent& key : window->keys) {
+    if (key.action == GLFW_RELEASE) continue;
     for (const Binding& binding : bindings) {
       if (binding.key != key.key) continue;
       press(state, binding.action, (key.modifiers & GLFW_MOD_SHIFT) != 0);

@@ -6,6 +6,9 @@
 #include <backends/imgui_impl_vulkan.h>
 #include <imgui.h>
 
+#include <set>
+#include <utility>
+
 namespace alpenglow::view {
 namespace {
 
@@ -16,12 +19,14 @@ void checkResult(VkResult result) { samples::Gpu::check(result, "Dear ImGui's Vu
 
 }  // namespace
 
-Interface::Interface(const samples::Gpu* gpu, const Window* window, const Presenter* presenter,
+Interface::Interface(const samples::Gpu* gpu, Window* window, const Presenter* presenter,
                      double scale)
     : gpu_(gpu), window_(window), presenter_(presenter), ownScale_(static_cast<float>(scale)) {
   ImGui::CreateContext();
   ImGui::GetIO().IniFilename = nullptr;  // Nothing is written behind the user's back.
+  ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
   ImGui_ImplGlfw_InitForVulkan(window->handle(), true);
+  window->listenToKeys();
   setScale(ownScale_ * window->scale());
 }
 
@@ -70,7 +75,11 @@ void Interface::setScale(float scale) {
   ImGuiStyle style;
   ImGui::StyleColorsDark(&style);
   style.WindowRounding = 4.0f;
-  style.Colors[ImGuiCol_WindowBg].w = 0.85f;
+  style.Colors[ImGuiCol_WindowBg].w = 0.88f;
+  style.Colors[ImGuiCol_PopupBg].w = 1.0f;
+  style.Colors[ImGuiCol_SliderGrab].w = 0.45f;  // Numbers are read through it.
+  style.Colors[ImGuiCol_SliderGrabActive].w = 0.6f;
+  style.Colors[ImGuiCol_TextDisabled] = {0.66f, 0.66f, 0.66f, 1.0f};
   style.ScaleAllSizes(scale);
   ImGui::GetStyle() = style;
   ImFontConfig font;
@@ -81,7 +90,26 @@ void Interface::setScale(float scale) {
   startDrawing();
 }
 
+// This version of ImGui looks at keys once a frame, so one that goes down and up within a frame
+// must be seen down for one.
+void Interface::handOnKeys() {
+  const auto handOn = [this](const KeyEvent& e) {
+    ImGui_ImplGlfw_KeyCallback(window_->handle(), e.key, e.scancode, e.action, e.modifiers);
+  };
+  for (const KeyEvent& event : std::exchange(held_, {})) handOn(event);
+  std::set<int> pressed;
+  for (const KeyEvent& event : window_->keys) {
+    if (event.action == GLFW_RELEASE && pressed.contains(event.key)) {
+      held_.push_back(event);
+      continue;
+    }
+    if (event.action == GLFW_PRESS) pressed.insert(event.key);
+    handOn(event);
+  }
+}
+
 void Interface::begin() {
+  handOnKeys();
   setScale(ownScale_ * window_->scale());
   ImGui_ImplVulkan_NewFrame();
   ImGui_ImplGlfw_NewFrame();
@@ -96,7 +124,9 @@ void Interface::record(VkCommandBuffer commands) {
   g_recording = VK_NULL_HANDLE;
 }
 
-bool Interface::wantsKeyboard() { return ImGui::GetIO().WantCaptureKeyboard; }
+bool Interface::wantsKeyboard() {
+  return ImGui::GetIO().WantCaptureKeyboard || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+}
 bool Interface::wantsMouse() { return ImGui::GetIO().WantCaptureMouse; }
 VkCommandBuffer Interface::recording() { return g_recording; }
 

@@ -8,8 +8,7 @@ namespace alpenglow::view {
 class Interface {
  public:
   /// All outlive it. Throws.
-  Interface(const samples::Gpu* gpu, const Window* window, const Presenter* presenter,
-            double scale);
+  Interface(const samples::Gpu* gpu, Window* window, const Presenter* presenter, double scale);
   Interface(const Interface&) = delete;
   Interface& operator=(const Interface&) = delete;
   ~Interface();
@@ -20,6 +19,7 @@ class Interface {
   /// Inside the window's pass.
   static void record(VkCommandBuffer commands);
 
+  /// While text is typed, or a list is open.
   static bool wantsKeyboard();
   static bool wantsMouse();
   /// The command buffer that record() is at, for callbacks of draw lists.
@@ -29,12 +29,14 @@ class Interface {
   /// Glyphs are made anew for a scale, so that text is sharp; so is what draws them.
   void setScale(float scale);
   void startDrawing();
+  void handOnKeys();
 
   const samples::Gpu* gpu_;
-  const Window* window_;
+  Window* window_;
   const Presenter* presenter_;
   float ownScale_ = 1.0f, scale_ = 0.0f;
   samples::Owned<VkDescriptorPool> pool_;
+  std::vector<KeyEvent> held_;  ///< Releases that the next frame hears of.
 };
 
 }  // namespace alpenglow::view

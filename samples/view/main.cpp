@@ -7,6 +7,7 @@
 #include "app.h"
 #include "common/failure.h"
 #include "common/sample_files.h"
+#include "common/scene_plan.h"
 
 namespace alpenglow::view {
 namespace {
@@ -22,13 +23,15 @@ constexpr char kKeys[] =
 void addOptions(CLI::App* app, Arguments* arguments) {
   app->set_help_flag("-h,--help", "Print this help");
   app->set_version_flag("--version", ALPENGLOW_VERSION_STRING);
-  app->add_option("SCENE", arguments->scene, "A scene file or a sample scene's name");
+  app->add_option("SCENE", arguments->scene,
+                  "A scene file or a sample scene's name; clear_noon if none is given");
   app->add_option("--walk", arguments->walk, "Play a walk: a file or a sample walk's name");
   app->add_option("--size", arguments->size, "WxH: the window's size");
   app->add_option("--config", arguments->config,
                   "Keys and window settings: JSON with comments; instead of the user's view.json");
   app->add_option("--device", arguments->options.device, "The Vulkan device: INDEX or NAME");
-  app->add_option("--script", arguments->options.script, "Do the steps in this file");
+  app->add_option("--script", arguments->options.script,
+                  "Do the steps in this file: docs/viewer.md lists them");
   app->add_option("--shaders", arguments->options.shaders,
                   "Load shaders from this folder, one like shaders/glsl, as they are edited");
   app->add_flag("--validation", arguments->options.validation,
@@ -68,6 +71,7 @@ AppOptions optionsOf(const Arguments& arguments) {
     const std::string scene = arguments.scene.empty() ? "clear_noon" : arguments.scene;
     options.scene = samples::take(io::readScene(samples::findSample("scenes", scene)));
   }
+  samples::checkScenery(options.scene);
   return options;
 }
 

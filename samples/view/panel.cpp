@@ -8,113 +8,67 @@
 #include <numbers>
 #include <utility>
 
-#include "choices.h"
 #include "controls.h"
 #include "parameters.h"
 #include "table_pictures.h"
+#include "widgets.h"
 
 namespace alpenglow::view {
 namespace {
 
 const ImVec4 kWarning = {1.0f, 0.75f, 0.3f, 1.0f};
+constexpr double kMessageSeconds = 15.0;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 
-void combo(State* state, const char* name, const char* label) {
-  const Choice* choice = findChoice(name);
-  const size_t now = choice->get(*state);
-  const char* shown = now < choice->values.size() ? choice->values[now].c_str() : "(own values)";
-  if (!ImGui::BeginCombo(label, shown)) return;
-  for (size_t i = 0; i < choice->values.size(); ++i) {
-    if (ImGui::Selectable(choice->values[i].c_str(), i == now)) choice->set(state, i);
-  }
-  ImGui::EndCombo();
-}
-
-void hint(const char* text) {
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", text);
-}
-
-// How a number is shown. Coefficients are so small that ImGui would round them; radii are
-// so large that 4 digits don't tell them apart.
-struct Display {
-  double factor = 1.0;
-  std::string format;
-};
-Display displayOf(const Parameter& parameter) {
-  const std::string unit = parameter.unit;
-  if (unit == "1/m") return {1e6, "%.4g e-6/m"};
-  const std::string digits = parameter.most > 1e6 ? "%.8g" : "%.4g";
-  return {1.0, digits + (unit.empty() || unit.size() > 3 ? "" : " " + unit)};
-}
-
-// A slider over a parameter; a value that isn't allowed is left out, with the reason.
-void slider(State* state, const Parameter& parameter, const char* label) {
-  if (parameter.find(state->scene) == nullptr) return;
-  const Display display = displayOf(parameter);
-  double value = parameter.get(state->scene) * display.factor;
-  const double least = parameter.least * display.factor, most = parameter.most * display.factor;
-  const ImGuiSliderFlags flags =
-      parameter.logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
-  const bool changed = ImGui::SliderScalar(label, ImGuiDataType_Double, &value, &least, &most,
-                                           display.format.c_str(), flags);
-  char range[200];
-  std::snprintf(range, sizeof range, "%s: %g to %g %s, now %g. Ctrl and click to type%s.",
-                parameter.name.c_str(), parameter.least, parameter.most, parameter.unit,
-                parameter.get(state->scene), display.factor != 1.0 ? " millionths" : "");
-  hint(range);
-  if (!changed) return;
-  const io::Scene before = state->scene;
-  parameter.set(&state->scene, value / display.factor);
-  state->message = whyInvalid(state->scene);
-  if (!state->message.empty()) state->scene = before;
-}
-
-// All parameters of the air, or all others, under their groups' names.
-void sliders(State* state, bool ofAir) {
-  std::string group;
-  for (const Parameter& parameter : parameters()) {
-    if (parameter.ofAir != ofAir || parameter.find(state->scene) == nullptr) continue;
-    if (group != parameter.group) {
-      group = parameter.group;
-      if (!group.empty()) ImGui::TextDisabled("%s", group.c_str());
-    }
-    const size_t skip = group.empty() ? 0 : group.size() + 1;
-    const std::string label = parameter.name.substr(skip) + "##" + parameter.name;
-    slider(state, parameter, label.c_str());
-  }
-}
-
-void showState(const State& state, const PanelFacts& facts) {
+void showState(const PanelFacts& facts) {
   ImGui::TextDisabled("%s", facts.device.c_str());
-  ImGui::Text("%.1f ms  %.0f fps  %u x %u", double{facts.frame_ms},
-              facts.frame_ms > 0.0f ? 1e3 / double{facts.frame_ms} : 0.0, facts.drawn.width,
-              facts.drawn.height);
-  if (facts.baker->idle()) {
-    ImGui::ProgressBar(1.0f, {-1.0f, 0.0f}, "tables baked");
+  if (facts.resting) {
+    ImGui::Text("at rest, %u x %u; the last frame: %.1f ms", facts.drawn.width, facts.drawn.height,
+                double{facts.frame_ms});
   } else {
-    const BakeProgress& bake = facts.baker->progress();
-    const float share = bake.unitsTotal == 0
-                            ? 0.0f
-                            : static_cast<float>(double(bake.unitsDone) / double(bake.unitsTotal));
-    ImGui::ProgressBar(share, {-1.0f, 0.0f}, (std::string("baking ") + bake.pass).c_str());
+    ImGui::Text("%.1f ms, %.0f a second, %u x %u", double{facts.frame_ms},
+                facts.frame_ms > 0.0f ? 1e3 / double{facts.frame_ms} : 0.0, facts.drawn.width,
+                facts.drawn.height);
   }
-  for (const std::string& text : {state.message, facts.trouble}) {
-    if (text.empty()) continue;
-    ImGui::PushStyleColor(ImGuiCol_Text, kWarning);
-    ImGui::TextWrapped("%s", text.c_str());
-    ImGui::PopStyleColor();
+  const BakeProgress& bake = facts.baker->progress();
+  if (facts.baker->idle()) return ImGui::TextDisabled("tables baked");
+  const float share = bake.unitsTotal == 0
+                          ? 0.0f
+                          : static_cast<float>(double(bake.unitsDone) / double(bake.unitsTotal));
+  char text[64];
+  std::snprintf(text, sizeof text, "%s, pass %u of %u", facts.baker->draft() ? "draft" : "baking",
+                bake.passIndex + 1, std::max(bake.passCount, 1u));
+  ImGui::ProgressBar(share, {-1.0f, 0.0f}, text);
+}
+
+// Over the picture, so that the panel's widgets stay where they are.
+void showMessages(const State& state, const std::string& trouble) {
+  if (state.message.empty() && trouble.empty()) return;
+  const ImVec2 size = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({size.x - 8.0f, 8.0f}, ImGuiCond_Always, {1.0f, 0.0f});
+  ImGui::Begin("messages", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                   ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::PushTextWrapPos(0.5f * size.x);
+  ImGui::PushStyleColor(ImGuiCol_Text, kWarning);
+  for (const std::string& text : {state.message, trouble}) {
+    if (!text.empty()) ImGui::TextUnformatted(text.c_str());
   }
+  ImGui::PopStyleColor();
+  ImGui::PopTextWrapPos();
+  ImGui::End();
 }
 
 void showTime(State* state) {
-  double hours = timeOfDay(state->scene), tilt = declination(state->scene) * kDegrees;
-  constexpr double kZero = 0.0, kDay = 24.0, kSouth = -23.44, kNorth = 23.44;
-  const bool turned =
-      ImGui::SliderScalar("time of day", ImGuiDataType_Double, &hours, &kZero, &kDay, "%.2f h");
-  const bool tilted = ImGui::SliderScalar("sun's declination", ImGuiDataType_Double, &tilt, &kSouth,
-                                          &kNorth, "%.1f deg");
-  hint("Of the season: +23.44 on June 21, 0 at the equinoxes.");
-  if (turned || tilted) setTimeOfDay(&state->scene, hours, tilt / kDegrees);
+  const double tilt = declination(state->scene) * kDegrees;
+  constexpr double kDay[2] = {0.0, 24.0}, kSeasons[2] = {-23.44, 23.44};
+  const auto hours = edited(state, "time of day", "time", timeOfDay(state->scene), kDay, "%.2f h");
+  const auto tilted = edited(state, "sun's declination", "declination", tilt, kSeasons, "%.1f deg");
+  hint("Of the season: +23.44 on June 21, 0 at the equinoxes. The arrow keys may go beyond.");
+  if (hours || tilted) {
+    setTimeOfDay(&state->scene, hours.value_or(timeOfDay(state->scene)),
+                 tilted.value_or(tilt) / kDegrees);
+  }
 }
 
 void showPicture(State* state, const PanelFacts& facts) {
@@ -136,24 +90,29 @@ void showPicture(State* state, const PanelFacts& facts) {
 
 void showMethod(State* state, const PanelFacts& facts) {
   combo(state, "model", "model");
-  combo(state, "solver", "solver");
-  combo(state, "quality", "quality");
-  combo(state, "orders", "orders");
+  if (!io::solverOf(state->scene.model)) {  // The simpler models have nothing of these.
+    combo(state, "solver", "solver");
+    if (state->scene.solver != Solver::Standard) combo(state, "quality", "quality");
+    combo(state, "orders", "orders");
+  }
   combo(state, "shafts", "light shafts");
   if (facts.air == nullptr) return;
   const Plan& plan = facts.air->plan;
   const char* limit = modelLimit(plan.tableDesc.solver);
   if (limit[0] != '\0') ImGui::TextWrapped("%s", limit);
-  if (plan.expectedError > 0.0) {
-    ImGui::Text("error expected: %.2f %%", 100.0 * plan.expectedError);
+  // Of all orders: what is left out of choice is no error of the tables.
+  if (plan.expectedError > 0.0 && !state->scene.orders) {
+    ImGui::Text("error expected: up to %.2f %%", 100.0 * plan.expectedError);
     hint(
-        "95th percentile of the relative error of radiance, of the worst band of the sun: measured "
-        "against path-traced truth, docs/accuracy.md.");
+        "Of the radiance of 95 rays in 100, with the sun in the band where it is worst: measured "
+        "against path-traced light, docs/accuracy.md.");
   }
   ImGui::Text("tables: %.2f MB, while baking %.1f MB more", 1e-6 * double(plan.cost.bytes),
               1e-6 * double(plan.cost.bakeBytes));
   for (uint32_t i = 0; i < plan.choiceCount; ++i) {
-    ImGui::BulletText("%s: %s", plan.choices[i].name, plan.choices[i].value);
+    std::string name = plan.choices[i].name;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    ImGui::BulletText("%s: %s", name.c_str(), plan.choices[i].value);
     hint(plan.choices[i].reason);
   }
 }
@@ -188,10 +147,12 @@ void showCost(const PanelFacts& facts) {
   for (const auto& [name, history] : facts.timer->passes()) {
     const auto& all = history.milliseconds;
     const float most = std::max(*std::max_element(all.begin(), all.end()), 0.1f);
-    char text[64];
-    std::snprintf(text, sizeof text, "%.2f ms", double{history.last});
-    ImGui::PlotHistogram(name.c_str(), all.data(), static_cast<int>(all.size()), 0, text, 0.0f,
-                         most, {0.0f, 2.2f * ImGui::GetTextLineHeight()});
+    char label[64];
+    std::snprintf(label, sizeof label, "%.2f ms %s", double{history.last}, name.c_str());
+    ImGui::PlotHistogram(("##" + name).c_str(), all.data(), static_cast<int>(all.size()), 0,
+                         nullptr, 0.0f, most, {0.0f, 1.6f * ImGui::GetTextLineHeight()});
+    ImGui::SameLine();
+    ImGui::TextUnformatted(label);
   }
   const ResourceReport& r = facts.resources;
   ImGui::Text("device memory %.2f MB (most: %.2f MB)", 1e-6 * double(r.bytes),
@@ -207,7 +168,9 @@ void showCost(const PanelFacts& facts) {
                         table.depth, 1e-6 * double(table.bytes));
     }
   }
+  ImGui::PushTextWrapPos(0.0f);
   ImGui::TextDisabled("Where nothing moves nothing is drawn, and a pass shows its last time.");
+  ImGui::PopTextWrapPos();
 }
 
 void showHelp(const PanelFacts& facts) {
@@ -250,6 +213,10 @@ Panel::~Panel() = default;
 void Panel::make(State* state, const PanelFacts& facts) {
   if (!facts.caption.empty()) showCaption(facts.caption);
   if (state->help) showHelp(facts);
+  if (state->message != message_) messageSince_ = ImGui::GetTime();
+  if (ImGui::GetTime() - messageSince_ > kMessageSeconds) state->message.clear();
+  message_ = state->message;
+  showMessages(*state, facts.trouble);
   if (!state->panel) return;
   const ImGuiIO& io = ImGui::GetIO();
   const float width = std::min(26.0f * ImGui::GetFontSize(), 0.6f * io.DisplaySize.x);
@@ -262,7 +229,7 @@ void Panel::make(State* state, const PanelFacts& facts) {
   window_[1] = io.DisplaySize.y;
   ImGui::Begin("Alpenglow");
   ImGui::PushItemWidth(0.55f * ImGui::GetContentRegionAvail().x);
-  showState(*state, facts);
+  showState(facts);
   const std::vector<std::string> wanted = std::exchange(state->sections, {});
   const auto section = [&](const std::string& title, bool open) {
     if (!wanted.empty()) {
@@ -279,11 +246,11 @@ void Panel::make(State* state, const PanelFacts& facts) {
   if (section("Picture", true)) showPicture(state, facts);
   if (section("Air", false)) {
     combo(state, "preset", "preset");
-    double haze = turbidity(state->scene.atmosphere);
-    constexpr double kClear = 1.0, kHazy = 20.0;
-    if (ImGui::SliderScalar("turbidity", ImGuiDataType_Double, &haze, &kClear, &kHazy, "%.2f")) {
-      setTurbidity(&state->scene.atmosphere, haze);
-    }
+    constexpr double kHaze[2] = {1.0, 20.0};
+    const auto haze =
+        edited(state, "turbidity", "turbidity", turbidity(state->scene.atmosphere), kHaze, "%.2f");
+    hint("What all the air takes out of green light, over what its molecules take.");
+    if (haze) setTurbidity(&state->scene.atmosphere, std::clamp(*haze, kHaze[0], kHaze[1]));
     sliders(state, true);
   }
   if (section("Method", false)) showMethod(state, facts);

@@ -22,8 +22,9 @@ struct PanelFacts {
   double exposure = 1.0;
   float frame_ms = 0.0f, scale = 1.0f;
   VkExtent2D drawn = {};
-  std::string caption;  ///< Of a walk.
-  std::string trouble;  ///< What can't be drawn or compiled, and why.
+  bool resting = false;  ///< Nothing moves, so nothing is drawn.
+  std::string caption;   ///< Of a walk.
+  std::string trouble;   ///< What can't be drawn or compiled, and why.
 };
 
 class TablePictures;
@@ -40,6 +41,8 @@ class Panel {
  private:
   std::unique_ptr<TablePictures> tables_;
   float window_[2] = {};  ///< Size that the last frame had.
+  std::string message_;   ///< That is shown, and since when.
+  double messageSince_ = 0.0;
 };
 
 }  // namespace alpenglow::view

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <vector>
 
@@ -181,9 +182,10 @@ std::string whyInvalid(const io::Scene& scene) {
     if (std::isfinite(value) && (free || (value >= parameter.least && value <= parameter.most))) {
       continue;
     }
-    return parameter.name + " is " + std::to_string(value) + ", but a number from " +
-           std::to_string(parameter.least) + " to " + std::to_string(parameter.most) +
-           " is expected.";
+    char text[160];
+    std::snprintf(text, sizeof text, "%s is %g, but a number from %g to %g is expected.",
+                  parameter.name.c_str(), value, parameter.least, parameter.most);
+    return text;
   }
   return "";
 }

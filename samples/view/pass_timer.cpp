@@ -14,7 +14,15 @@ PassTimer::PassTimer(const samples::Gpu* gpu) : gpu_(gpu), vk_(*gpu) {
   VkPhysicalDeviceProperties properties = {};
   reinterpret_cast<PFN_vkGetPhysicalDeviceProperties>(device.getInstanceProcAddr()(
       device.instance(), "vkGetPhysicalDeviceProperties"))(device.physicalDevice(), &properties);
-  if (properties.limits.timestampComputeAndGraphics == VK_FALSE) return;
+  const auto getFamilies = reinterpret_cast<PFN_vkGetPhysicalDeviceQueueFamilyProperties>(
+      device.getInstanceProcAddr()(device.instance(), "vkGetPhysicalDeviceQueueFamilyProperties"));
+  uint32_t count = 0;
+  getFamilies(device.physicalDevice(), &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  getFamilies(device.physicalDevice(), &count, families.data());
+  const uint32_t bits = families[device.queueFamily()].timestampValidBits;
+  if (bits == 0) return;
+  mask_ = bits < 64 ? (uint64_t{1} << bits) - 1 : UINT64_MAX;
   period_ = 1e-9 * static_cast<double>(properties.limits.timestampPeriod);
   for (Slot& slot : slots_) {
     VkQueryPoolCreateInfo info = {};
@@ -43,7 +51,7 @@ void PassTimer::begin(const Frame& frame) {
   pieces_.clear();
   for (uint32_t i = 0; i + 1 < slot.marks; i += 2) {
     const char* name = slot.names[i / 2];
-    pieces_.emplace_back(name, period_ * static_cast<double>(ticks[i + 1] - ticks[i]));
+    pieces_.emplace_back(name, period_ * static_cast<double>((ticks[i + 1] - ticks[i]) & mask_));
     History& history = passes_[name];
     history.last = static_cast<float>(1e3 * pieces_.back().second);
     history.milliseconds.back() += history.last;

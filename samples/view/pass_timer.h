@@ -44,6 +44,7 @@ class PassTimer {
 
   const samples::Gpu* gpu_;
   Functions vk_;
+  uint64_t mask_ = 0;    ///< The bits that a timestamp has.
   double period_ = 0.0;  ///< Seconds a tick; 0: the device has no timestamps.
   struct Slot {
     samples::Owned<VkQueryPool> queries;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <sstream>
 
@@ -15,6 +16,9 @@ namespace alpenglow::view {
 namespace {
 
 constexpr uint32_t kMostFramesToSettle = 20000;
+constexpr char kTurbidity[] = "turbidity";
+const std::vector<std::string> kSections = {"Sun",     "Picture", "Air", "Method",
+                                            "Effects", "Tables",  "Cost"};
 
 // Words of each step after its own: how many, and whether they are numbers.
 struct Shape {
@@ -39,6 +43,18 @@ bool isNumber(const std::string& word) {
   } catch (const std::exception&) {
     return false;
   }
+}
+
+// Names of the same group, or all.
+std::string parametersLike(const std::string& name) {
+  const std::string group = name.substr(0, name.find('.') + 1);
+  std::string same, all = kTurbidity;
+  for (const Parameter& parameter : parameters()) {
+    all += ", " + parameter.name;
+    if (group.empty() || !parameter.name.starts_with(group)) continue;
+    same += (same.empty() ? "" : ", ") + parameter.name;
+  }
+  return same.empty() ? all : same;
 }
 
 }  // namespace
@@ -82,14 +98,39 @@ void Script::check(const Step& step) const {
       refuse(step, "'" + step.words[i] + "' was given, but a number is expected.");
     }
   }
+  const auto inRange = [&](size_t i, double least, double most) {
+    const double given = step.number(i);
+    if (given >= least && given <= most) return;
+    char text[160];
+    std::snprintf(text, sizeof text, "%g was given, but a number from %g to %g is expected.", given,
+                  least, most);
+    refuse(step, text);
+  };
+  if (what == "frames" || what == "random") inRange(1, 0.0, 1e9);
+  if (what == "random") inRange(2, 0.0, 4e9);
+  if (what == "fly") inRange(4, 0.0, 1e9);
+  for (size_t i = 1; what == "resize" && i <= 2; ++i) inRange(i, 16.0, 16384.0);
   if (what == "press" && keyNamed(step.words[1]) == 0) {
     refuse(step, "'" + step.words[1] + "' is no key's name, such as W, F1 or Period.");
   }
-  if (what == "set" && findParameter(step.words[1]) == nullptr) {
-    refuse(step, "there is no parameter '" + step.words[1] + "', such as mie.asymmetry.");
+  if (what == "set" && step.words[1] != kTurbidity && findParameter(step.words[1]) == nullptr) {
+    refuse(step, "there is no parameter '" + step.words[1] +
+                     "'; these exist: " + parametersLike(step.words[1]) + ".");
   }
   if (what == "set" && !isNumber(step.words[2])) {
     refuse(step, "'" + step.words[2] + "' was given, but a number is expected.");
+  }
+  const std::string last = step.words.back();
+  if (what == "save" && !last.ends_with(".png") && !last.ends_with(".exr")) {
+    refuse(step, "'" + last + "' was given, but a name that ends in .png or .exr is expected.");
+  }
+  for (size_t i = 1; what == "show" && i < step.words.size(); ++i) {
+    const bool known =
+        std::find(kSections.begin(), kSections.end(), step.words[i]) != kSections.end();
+    if (known) continue;
+    std::string names;
+    for (const std::string& name : kSections) names += (names.empty() ? "" : ", ") + name;
+    refuse(step, "there is no section '" + step.words[i] + "'; these exist: " + names + ".");
   }
   if (what == "exposure" && step.words[1] != "auto" && !isNumber(step.words[1])) {
     refuse(step, "'" + step.words[1] + "' was given, but a number or auto is expected.");
@@ -99,7 +140,11 @@ void Script::check(const Step& step) const {
 void Script::change(const Step& step, State* state) const {
   const std::string& name = step.words[1];
   if (step.words[0] == "set") {
-    findParameter(name)->set(&state->scene, step.number(2));
+    if (name == kTurbidity) {
+      setTurbidity(&state->scene.atmosphere, step.number(2));
+    } else {
+      findParameter(name)->set(&state->scene, step.number(2));
+    }
     const std::string why = whyInvalid(state->scene);
     if (!why.empty()) refuse(step, why);
     return;
@@ -152,7 +197,7 @@ bool Script::run(const Step& step, State* state, const ScriptHost& host) {
   }
   if (what == "frames" || what == "random" || what == "fly") {
     const size_t count = what == "fly" ? 4 : 1;
-    frames_ = static_cast<uint32_t>(std::max(step.number(count), 0.0));
+    frames_ = static_cast<uint32_t>(step.number(count));
     if (what == "random") random_.seed(static_cast<uint32_t>(step.number(2)));
     return false;
   }
@@ -170,7 +215,7 @@ bool Script::run(const Step& step, State* state, const ScriptHost& host) {
     state->scene.exposure.reset();
     if (step.words[1] != "auto") state->scene.exposure = step.number(1);
   } else if (what == "seek") {
-    host.seek(step.number(1));
+    if (!host.seek(step.number(1))) refuse(step, "there is no walk to seek in.");
   } else if (what == "show") {
     state->sections.assign(step.words.begin() + 1, step.words.end());
   } else if (what == "save") {
@@ -188,7 +233,7 @@ bool Script::run(const Step& step, State* state, const ScriptHost& host) {
 
 void Script::step(State* state, const ScriptHost& host) {
   while (true) {
-    if (Clock::now() < until_) return;
+    if (Clock::now() < until_ || !state->screenshot.empty()) return;
     if (frames_ > 0) {
       --frames_;
       const Step& step = steps_[next_ - 1];

@@ -8,7 +8,7 @@
 //   fly F R U N          hold forward, right, up (-1 to 1) for N frames
 //   drag X Y             the mouse, pixels
 //   resize W H           the window
-//   set NAME VALUE       a parameter, such as mie.asymmetry or sun.elevation_deg
+//   set NAME VALUE       a parameter, such as mie.asymmetry, sun.elevation_deg or turbidity
 //   choose NAME VALUE    a choice, such as solver standard or effects.mie off
 //   exposure VALUE|auto
 //   seek SECONDS         a walk, which then halts
@@ -33,7 +33,7 @@ namespace alpenglow::view {
 struct ScriptHost {
   std::function<bool()> settled;
   std::function<void(uint32_t width, uint32_t height)> resize;
-  std::function<void(double seconds)> seek;
+  std::function<bool(double seconds)> seek;  ///< False without a walk.
   std::function<void(const std::string& path)> report;
 };
 

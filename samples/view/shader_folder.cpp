@@ -3,6 +3,7 @@
 #include <alpenglow/io/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -47,9 +48,14 @@ ShaderFolder::ShaderFolder(const std::string& folder) : folder_(folder) {
   std::string list = folder + "/shaders.json";
   if (!fs::exists(list, code)) list = ALPENGLOW_SHADER_LIST;
   const std::string text = samples::take(io::readFile(list, kMostBytes));
-  for (const auto& shader : nlohmann::json::parse(text)) {
-    shaders_[shader["name"]] = {shader["source"],
-                                shader["defines"].get<std::vector<std::string>>()};
+  try {
+    for (const auto& shader : nlohmann::json::parse(text)) {
+      shaders_[shader.at("name")] = {shader.at("source"),
+                                     shader.at("defines").get<std::vector<std::string>>()};
+    }
+  } catch (const nlohmann::json::exception& reason) {
+    throw Failure("The list of shaders '" + list +
+                  "' is none as a build writes it: " + reason.what() + ".");
   }
   const std::string first = shaders_.empty() ? "" : shaders_.begin()->second.source;
   if (!fs::exists(fs::path(folder) / first, code)) {
@@ -77,9 +83,12 @@ ShaderHook ShaderFolder::hook() {
 ShaderFolder::Times ShaderFolder::times() const {
   Times times;
   std::error_code code;
-  for (const auto& entry : fs::recursive_directory_iterator(folder_, code)) {
-    if (!entry.is_regular_file(code)) continue;
-    times[fs::relative(entry.path(), folder_, code).string()] = entry.last_write_time(code);
+  // Files may come and go meanwhile.
+  for (fs::recursive_directory_iterator i(folder_, code), end; !code && i != end;
+       i.increment(code)) {
+    std::error_code gone;
+    if (!i->is_regular_file(gone)) continue;
+    times[i->path().lexically_relative(folder_).string()] = i->last_write_time(gone);
   }
   return times;
 }
@@ -136,35 +145,56 @@ ShaderFolder::Compiled ShaderFolder::compile(const std::string& folder,
   return result;
 }
 
+// Names whose files have changed since the last look.
+std::set<std::string> ShaderFolder::changedShaders() {
+  const Times before = std::exchange(times_, times());
+  std::set<std::string> files, names;
+  for (const auto& [file, time] : times_) {
+    const auto found = before.find(file);
+    if (found == before.end() || found->second != time) files.insert(file);
+  }
+  if (files.empty()) return names;
+  std::map<std::string, bool> stale;  // By source, which many share.
+  for (const auto& [name, shader] : shaders_) {
+    const auto [known, isNew] = stale.emplace(shader.source, false);
+    if (isNew) {
+      const std::set<std::string> of = filesOf(shader.source);
+      known->second = std::any_of(of.begin(), of.end(),
+                                  [&](const std::string& file) { return files.contains(file); });
+    }
+    if (known->second) names.insert(name);
+  }
+  return names;
+}
+
 bool ShaderFolder::poll() {
-  const auto now = std::chrono::steady_clock::now();
   if (compiled_.valid()) {
     if (compiled_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
     Compiled compiled = compiled_.get();
     error_ = std::move(compiled.error);
-    if (!error_.empty() || compiled.code.empty()) return false;
+    if (!error_.empty()) return false;
     before_ = code_;
-    for (auto& [name, words] : compiled.code) code_[name] = std::move(words);
+    tried_ = 0;
+    for (auto& [name, words] : compiled.code) {
+      pending_.erase(name);
+      code_[name] = std::move(words);
+    }
     return true;
   }
+  const auto now = std::chrono::steady_clock::now();
   if (now - lastLook_ < kLookEvery) return false;
   lastLook_ = now;
-  const Times before = std::exchange(times_, times());
-  std::set<std::string> changed;
-  for (const auto& [file, time] : times_) {
-    const auto found = before.find(file);
-    if (found == before.end() || found->second != time) changed.insert(file);
+  const std::set<std::string> changed = changedShaders();
+  pending_.insert(changed.begin(), changed.end());
+  // All of it that is in use, so that what doesn't compile is not forgotten; again only if
+  // something is other than when it didn't.
+  std::map<std::string, Shader> wanted;
+  for (const std::string& name : pending_) {
+    if (used_.contains(name)) wanted[name] = shaders_.at(name);
   }
-  if (changed.empty()) return false;
-  std::map<std::string, Shader> stale;
-  for (const std::string& name : used_) {
-    const auto shader = shaders_.find(name);
-    if (shader == shaders_.end()) continue;
-    for (const std::string& file : filesOf(shader->second.source)) {
-      if (changed.contains(file)) stale.insert(*shader);
-    }
-  }
-  if (!stale.empty()) compiled_ = std::async(std::launch::async, compile, folder_, stale);
+  if (wanted.empty() || (changed.empty() && wanted.size() == tried_)) return false;
+  tried_ = wanted.size();
+  compiled_ = std::async(std::launch::async, compile, folder_, std::move(wanted));
   return false;
 }
 

@@ -27,7 +27,7 @@ class ShaderFolder {
   bool poll();
   /// Takes the last change back: the library has refused it.
   void undo() { code_ = before_; }
-  /// What the compiler said of the last change; empty: it compiled.
+  /// What the compiler says of what has changed; empty: it compiles.
   const std::string& error() const { return error_; }
   bool compiling() const { return compiled_.valid(); }
 
@@ -44,11 +44,14 @@ class ShaderFolder {
   using Times = std::map<std::string, std::filesystem::file_time_type>;
   Times times() const;
   std::set<std::string> filesOf(const std::string& source) const;
+  std::set<std::string> changedShaders();
   static Compiled compile(const std::string& folder, const std::map<std::string, Shader>& shaders);
 
   std::string folder_;
   std::map<std::string, Shader> shaders_;  ///< All there are, by name.
   std::set<std::string> used_;             ///< Names that the library has asked for.
+  std::set<std::string> pending_;          ///< Those that have changed and aren't compiled yet.
+  size_t tried_ = 0;                       ///< How many of them were compiled last.
   Code code_, before_;
   Times times_;
   std::future<Compiled> compiled_;

@@ -183,6 +183,7 @@ void Stage::recordScope(const Frame& frame, const io::Scene& scene, const Air& a
 void Stage::record(const Frame& frame, const io::Scene& scene, const Air& air, SkyDraw draw,
                    const Picture& picture, PassTimer* timer) {
   refusal_.clear();
+  if (!key_) return;
   if (landscape_) draw.depth = landscape_->depthRange(draw.camera);
   if (key_->sliced) {
     timer->time(frame, "sky slice", [&] {

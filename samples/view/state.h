@@ -3,6 +3,7 @@
 
 #include <alpenglow/io/scene_file.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct State {
   /// Sections of the panel, by their first words, that are to be open, all others closed; empty: as
   /// they are.
   std::vector<std::string> sections;
+  /// A number that is being typed into the panel, which counts when the typing ends.
+  struct Typed {
+    std::string id;
+    double value = 0.0;
+  };
+  std::optional<Typed> typed;
   /// The last thing that went wrong, or was done: a sentence.
   std::string message;
 };

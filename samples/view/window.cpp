@@ -36,11 +36,6 @@ Window::Window(uint32_t width, uint32_t height, const std::string& title) {
                   " can't be opened: " + reason + ".");
   }
   glfwSetWindowUserPointer(window_, this);
-  // Set before the interface is made, which then calls it first.
-  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int modifiers) {
-    auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
-    if (action != GLFW_RELEASE) self->presses.push_back({key, modifiers});
-  });
 }
 
 Window::~Window() {
@@ -78,8 +73,16 @@ float Window::scale() const {
 
 bool Window::focused() const { return glfwGetWindowAttrib(window_, GLFW_FOCUSED) == GLFW_TRUE; }
 
+void Window::listenToKeys() {
+  glfwSetKeyCallback(window_,
+                     [](GLFWwindow* window, int key, int scancode, int action, int modifiers) {
+                       auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
+                       self->keys.push_back({key, scancode, action, modifiers});
+                     });
+}
+
 void Window::poll(double seconds) {
-  presses.clear();
+  keys.clear();
   if (seconds > 0.0) {
     glfwWaitEventsTimeout(seconds);
   } else {

@@ -10,10 +10,9 @@ struct GLFWwindow;
 
 namespace alpenglow::view {
 
-/// One key press, as GLFW names keys and modifiers.
-struct KeyPress {
-  int key = 0;
-  int modifiers = 0;
+/// As GLFW's key callback has it.
+struct KeyEvent {
+  int key = 0, scancode = 0, action = 0, modifiers = 0;
 };
 
 class Window {
@@ -34,10 +33,12 @@ class Window {
   float scale() const;
   bool focused() const;
 
-  /// Looks at events, or waits for them up to `seconds`. Key presses since the last call are in
-  /// `presses`.
+  /// From now on `keys` are collected, and no other callback of the window hears of them.
+  void listenToKeys();
+  /// Looks at events, or waits for them up to `seconds`. What keys did since the last call is in
+  /// `keys`.
   void poll(double seconds);
-  std::vector<KeyPress> presses;
+  std::vector<KeyEvent> keys;
   bool held(int key) const;
   /// Pixels that the mouse was dragged by, with the button that turns the camera, since the last
   /// call; keeps the pointer hidden meanwhile.

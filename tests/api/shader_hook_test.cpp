@@ -1,6 +1,7 @@
 // A host's own SPIR-V in place of ours: ContextDesc::shaders.
 #include <alpenglow/shaders/host_flat.h>
 #include <alpenglow/shaders/host_flat_buffer.h>
+#include <alpenglow/shaders/host_flat_more.h>
 #include <alpenglow/shaders/moment_depth.h>
 #include <alpenglow/shaders/moment_single.h>
 #include <alpenglow/shaders/sky_fragment_slice.h>
@@ -109,6 +110,7 @@ TEST_F(ShaderHookTest, CodeThatDoesNotFitIsRefusedWithASentence) {
     EXPECT_TRUE(hasAll(lastDiagnostic(), parts)) << lastDiagnostic();
   };
   refused(shaders::kHostFlatBuffer, "kSkyFragment|a storage buffer at set 0, binding 7");
+  refused(shaders::kHostFlatMore, "kSkyFragment|more push constants");
   refused(shaders::kMomentDepth, "kSkyFragment|another stage");
   refused(Words(shaders::kHostFlat).first(4), "kSkyFragment|0x07230203");
   refused(Words(shaders::kHostFlat).first(40), "kSkyFragment|cut off");
@@ -147,6 +149,20 @@ TEST(SpirvInterface, OfOurOwnShadersNamesWhatTheyDeclare) {
   const auto depth = Words(shaders::kMomentDepth);
   ASSERT_EQ(engine::readInterface(depth.data(), depth.size_bytes(), &found), nullptr);
   EXPECT_EQ(found.localSize[0] * found.localSize[1] * found.localSize[2], 64u);
+}
+
+TEST(SpirvInterface, SizesOfBlocksAndArraysAreKnown) {
+  engine::SpirvInterface found;
+  const auto more = Words(shaders::kHostFlatMore);
+  ASSERT_EQ(engine::readInterface(more.data(), more.size_bytes(), &found), nullptr);
+  // Parts of 64 + 12 + 4 bytes, two of them, and a float.
+  EXPECT_EQ(found.pushConstantEnd, 164u);
+  ASSERT_EQ(found.resources.size(), 1u);
+  EXPECT_EQ(found.resources[0].count, 2u);
+  const auto sky = Words(shaders::kSkyFragmentSlice);
+  ASSERT_EQ(engine::readInterface(sky.data(), sky.size_bytes(), &found), nullptr);
+  EXPECT_EQ(found.pushConstantEnd % 16, 0u);  // Its last member is a vec4.
+  EXPECT_GE(found.pushConstantEnd, 96u);
 }
 
 TEST(SpirvInterface, NothingThatAFileMayHoldIsReadBeyond) {

@@ -19,7 +19,10 @@ TEST_F(ViewerArguments, WrongOnesGetASentence) {
   expectRefused({"--sise", "3x3"}, {"--sise", "--help"});
   expectRefused({"--size", "640"}, {"640", "WxH"});
   expectRefused({"--size", "640x360x2"}, {"640x360x2", "WxH"});
-  expectRefused({"no_such_scene"}, {"no_such_scene"});
+  expectRefused({"no_such_scene"}, {"no_such_scene", "clear_noon, "});
+  expectRefused({folder_.write("fisheye.json", R"({"atmosphere": "earth",
+      "camera": {"projection": "fisheye"}, "balloons": [{"altitude_m": 900, "radius_m": 10}]})")},
+                {"balloons", "fisheye"});
   expectRefused({scene_, "--walk", "dawn_to_night"},
                 {"scene.json", "dawn_to_night", "one of them"});
   expectRefused({"--walk", "no_such_walk"}, {"no_such_walk"});
@@ -48,6 +51,7 @@ TEST_F(ViewerArguments, WrongConfigFilesGetASentence) {
   refused(R"({"window": {"interface_scale": 9}})", {"interface_scale", "9", "0.25"});
   refused(R"({"keys": {"forward": "WW"}})", {"keys.forward", "WW", "LeftShift"});
   refused(R"({"keys": {"jump": "W"}})", {"'keys.jump'", "forward"});
+  refused(R"({"keys": {"forward": "Up", "back": "Up"}})", {"\"Up\"", "keys.back", "keys.forward"});
   refused(R"({"bake_ms": "x"})", {"bake_ms", "\"x\""});
 }
 
@@ -75,6 +79,11 @@ TEST_F(ViewerArguments, WrongScriptsGetASentenceWithTheLine) {
   refused("set mie.asymmetry 7", {"mie.asymmetry", "7"});
   refused("set sun.elevation_deg 91", {"sun.elevation_deg", "91", "90"});
   refused("choose solver magic", {"magic", "moments, standard"});
+  refused("save picture.jpg", {"picture.jpg", ".png", ".exr"});
+  refused("seek 3", {"walk"});
+  refused("show air", {"air", "Air"});
+  refused("frames 1e12", {"1e+12", "1e+09"});
+  refused("set mie.scattering_per_m 1", {"mie.scattering_per_m.0"});
   refused("save /no/such/folder/picture.png", {"/no/such/folder"});
 }
 

@@ -128,6 +128,29 @@ TEST_F(ViewerControls, WhatIsRefusedIsSaidAndTheSceneStays) {
   EXPECT_NE(report()["refusal"].get<std::string>().find("ground"), std::string::npos) << report();
 }
 
+TEST_F(ViewerControls, OtherTablesWhileADraftIsBakedAreWaitedFor) {
+  play(
+      "settle\nset mie.asymmetry 0.7\nframes 1\nchoose solver standard\nframes 1\n"
+      "choose effects.mie off\nframes 2\nchoose solver moments\nchoose quality low\nframes 1\n"
+      "set mie.asymmetry 0.6\nchoose model hillaire\nframes 1\nchoose model bruneton\n"
+      "choose effects.mie on\nsettle\nreport @report.json\n");
+  EXPECT_EQ(report()["message"], "");
+  EXPECT_EQ(report()["refusal"], "");
+  EXPECT_EQ(report()["scene"]["quality"], "low");
+}
+
+TEST_F(ViewerControls, APlanetTooSmallForTheTerrainIsTakenBack) {
+  scene_ = ALPENGLOW_SAMPLES "/scenes/mountain_shadows.json";
+  play(
+      "choose quality draft\nsettle\nreport @before.json\nset bottom_radius_m 20000\n"
+      "set top_radius_m 80000\nsettle\nreport @after.json\nfly 1 0 0 5\nsettle\n"
+      "report @moved.json\n");
+  EXPECT_NE(report("after.json")["message"], "");
+  EXPECT_EQ(report("after.json")["parameters"]["bottom_radius_m"],
+            report("before.json")["parameters"]["bottom_radius_m"]);
+  EXPECT_EQ(report("moved.json")["refusal"], "");
+}
+
 TEST_F(ViewerControls, AWalkStandsWhereItIsSought) {
   play("seek 4.5\nframes 2\nreport @report.json\n",
        {"--walk", ALPENGLOW_SAMPLES "/walks/summit_to_orbit.json"});
