@@ -31,7 +31,7 @@ void showState(const PanelFacts& facts) {
                 facts.drawn.height);
   }
   const BakeProgress& bake = facts.baker->progress();
-  if (facts.baker->idle()) return ImGui::TextDisabled("tables baked");
+  if (facts.baker->idle()) return ImGui::ProgressBar(0.0f, {-1.0f, 0.0f}, "tables baked");
   const float share = bake.unitsTotal == 0
                           ? 0.0f
                           : static_cast<float>(double(bake.unitsDone) / double(bake.unitsTotal));

@@ -1,6 +1,7 @@
 #include "stage.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/failure.h"
 #include "common/scene_plan.h"
@@ -184,6 +185,12 @@ void Stage::record(const Frame& frame, const io::Scene& scene, const Air& air, S
                    const Picture& picture, PassTimer* timer) {
   refusal_.clear();
   if (!key_) return;
+  // A flight keeps the sun where it is, but for rounding, and a map of its shadows holds that long.
+  constexpr double kSame = 1e-7;
+  if (std::equal(mappedSun_, mappedSun_ + 3, draw.sun.direction,
+                 [](double a, double b) { return std::abs(a - b) < kSame; })) {
+    std::copy_n(mappedSun_, 3, draw.sun.direction);
+  }
   if (landscape_) draw.depth = landscape_->depthRange(draw.camera);
   if (key_->sliced) {
     timer->time(frame, "sky slice", [&] {

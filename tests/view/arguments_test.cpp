@@ -21,7 +21,8 @@ TEST_F(ViewerArguments, WrongOnesGetASentence) {
   expectRefused({"--size", "640x360x2"}, {"640x360x2", "WxH"});
   expectRefused({"no_such_scene"}, {"no_such_scene", "clear_noon, "});
   expectRefused({folder_.write("fisheye.json", R"({"atmosphere": "earth",
-      "camera": {"projection": "fisheye"}, "balloons": [{"altitude_m": 900, "radius_m": 10}]})")},
+      "sun": {"elevation_deg": 20}, "camera": {"altitude_m": 2, "projection": "fisheye"},
+      "balloons": [{"altitude_m": 900, "radius_m": 10, "latitude_deg": 0, "longitude_deg": 0}]})")},
                 {"balloons", "fisheye"});
   expectRefused({scene_, "--walk", "dawn_to_night"},
                 {"scene.json", "dawn_to_night", "one of them"});
