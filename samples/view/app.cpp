@@ -25,6 +25,7 @@ using std::chrono::duration;
 
 constexpr double kRestSeconds = 0.25;  // Without a change, before the picture is drawn in full.
 constexpr float kLeastScale = 0.25f;
+constexpr const char* kPassesOfPixels[] = {"sky", "air", "terrain", "balloons", "stars"};
 constexpr CapabilityFlags kNeeded = kCapabilityBake | kCapabilitySky;
 
 void keepError(void* user, const Diagnostic& diagnostic) {
@@ -306,8 +307,12 @@ void App::prepareStage() {
 VkExtent2D App::chooseSize(VkExtent2D full) {
   const bool moving = duration<double>(Clock::now() - lastChange_).count() < kRestSeconds;
   if (!moving || !state_.screenshot.empty()) return full;
-  const double seconds = timer_.seconds() - timer_.seconds("bake");
-  const double wanted = 1.0 / options_.config.framesPerSecond;
+  double seconds = 0.0;
+  for (const char* pass : kPassesOfPixels) seconds += timer_.seconds(pass);
+  // Fewer pixels don't shorten the other passes: the rest of a frame is for pixels, or, where those
+  // leave none, a third of what they take.
+  const double others = timer_.seconds() - timer_.seconds("bake") - seconds;
+  const double wanted = std::max(1.0 / options_.config.framesPerSecond - others, others / 3.0);
   const bool slow = seconds > wanted, fast = seconds < 0.6 * wanted && seconds > 0.0;
   if (slow || fast) {
     const double factor = std::clamp(std::sqrt(0.8 * wanted / seconds), 0.7, 1.1);
