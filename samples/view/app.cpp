@@ -133,7 +133,12 @@ App::App(AppOptions options)
 }
 
 size_t App::run() {
-  while (!state_.quit && glfwWindowShouldClose(window_.handle()) == GLFW_FALSE) {
+  const auto quits = [this] {
+    // A picture that was asked for is saved first.
+    const bool saves = !state_.screenshot.empty() && window_.size().width > 0;
+    return !saves && (state_.quit || glfwWindowShouldClose(window_.handle()) == GLFW_TRUE);
+  };
+  while (!quits()) {
     // Nothing moves: don't keep a processor busy.
     const bool idle = settled() && !script_ && !(options_.walk && state_.playing);
     window_.poll(idle ? 0.1 : 0.0);

@@ -185,7 +185,10 @@ xdotool keydown w
 sleep 0.5
 xdotool keyup w
 xdotool key period
-sleep 2
+for i in $(seq 200); do
+  ls alpenglow_*.png > /dev/null 2>&1 && break
+  sleep 0.2
+done
 xdotool key Escape
 )");
   const std::string command = "DISPLAY=" + display_.name() + " bash '" + steps + "' '" +

@@ -39,9 +39,9 @@ TEST_F(ViewerShaders, AnEditIsSeenAndOneThatDoesNotCompileIsToldAndChangesNothin
   editAfter("twice.exr", "s/vec4(2.0 \\* light/vec4(3.0 * lihgt/", "sky/sky.frag");
   editAfter("kept.exr", "s/3.0 \\* lihgt/4.0 * light/", "sky/sky.frag");
   play(
-      "settle\nsave @before.exr\nseconds 4\nsettle\nreport @twice.json\nsave @twice.exr\n"
-      "seconds 4\nsettle\nreport @kept.json\nsave @kept.exr\n"
-      "seconds 4\nsettle\nreport @mended.json\nsave @mended.exr\n",
+      "settle\nsave @before.exr\nseconds 6\nsettle\nreport @twice.json\nsave @twice.exr\n"
+      "seconds 6\nsettle\nreport @kept.json\nsave @kept.exr\n"
+      "seconds 6\nsettle\nreport @mended.json\nsave @mended.exr\n",
       {"--shaders", at("glsl")});
   EXPECT_EQ(report("twice.json")["compiler"], "");
   const std::string said = report("kept.json")["compiler"];
@@ -62,7 +62,7 @@ TEST_F(ViewerShaders, ABakesShaderBakesAnew) {
             "  imageStore(radiance, texel.xy, vec4(0.0));/",
             "bake/moment_single.comp");
   play(
-      "set sun.azimuth_deg 280\nsettle\nsave @before.exr\nseconds 4\nsettle\nreport "
+      "set sun.azimuth_deg 280\nsettle\nsave @before.exr\nseconds 6\nsettle\nreport "
       "@report.json\nsave @after.exr\n",
       {"--shaders", at("glsl")});
   EXPECT_EQ(report()["compiler"], "");
@@ -75,7 +75,7 @@ TEST_F(ViewerShaders, WhatDoesNotFitTheLibraryIsToldAndTheOldCodeStays) {
             "sampler2D mine;/; s/^  radiance = vec4(light, 1.0);/  radiance = vec4(light + "
             "texture(mine, ndc).rgb, 1.0);/",
             "sky/sky.frag");
-  play("settle\nsave @before.exr\nseconds 4\nsettle\nreport @report.json\nsave @after.exr\n",
+  play("settle\nsave @before.exr\nseconds 6\nsettle\nreport @report.json\nsave @after.exr\n",
        {"--shaders", at("glsl")});
   const std::string said = report()["message"];
   EXPECT_NE(said.find("set 0, binding 30"), std::string::npos) << said;
