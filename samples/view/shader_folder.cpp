@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "common/failure.h"
 
@@ -95,7 +94,7 @@ ShaderFolder::Times ShaderFolder::times() const {
 
 // A file and all that it includes, which are beside it or named from the folder.
 std::set<std::string> ShaderFolder::filesOf(const std::string& source) const {
-  static const std::regex kInclude("#include \"([^\"]+)\"");
+  const std::string include = "#include \"";
   std::set<std::string> all;
   std::vector<std::string> open = {source};
   while (!open.empty()) {
@@ -103,9 +102,11 @@ std::set<std::string> ShaderFolder::filesOf(const std::string& source) const {
     open.pop_back();
     const auto text = io::readFile(folder_ + "/" + file, kMostBytes);
     if (!text || !all.insert(file).second) continue;
-    for (std::sregex_iterator i(text->begin(), text->end(), kInclude), end; i != end; ++i) {
-      open.push_back((*i)[1]);
-      open.push_back((fs::path(file).parent_path() / (*i)[1].str()).lexically_normal().string());
+    for (size_t at = text->find(include); at != std::string::npos; at = text->find(include, at)) {
+      at += include.size();
+      const std::string name = text->substr(at, text->find('"', at) - at);
+      open.push_back(name);
+      open.push_back((fs::path(file).parent_path() / name).lexically_normal().string());
     }
   }
   return all;

@@ -164,14 +164,14 @@ TEST_F(ViewerControls, AWalkStandsWhereItIsSought) {
 
 // Everything above goes past the window system; this doesn't.
 TEST_F(ViewerControls, RealKeysAndARealMouseReachIt) {
-  const std::string steps = folder_.write("keys.sh", R"(#!/bin/bash
+  const std::string steps = folder_.write("keys.sh", R"sh(#!/bin/bash
 cd "$1"
 for i in $(seq 100); do
-  window=$(xdotool search --name '^Alpenglow$' 2>/dev/null | head -1)
-  [[ -n "$window" ]] && break
-  sleep 0.1
+  window=$(xdotool search --onlyvisible --name '^Alpenglow$' 2>/dev/null | head -1)
+  [[ -n "$window" ]] && xdotool windowfocus "$window"
+  [[ -n "$window" && "$(xdotool getwindowfocus)" == "$window" ]] && break
+  sleep 0.2
 done
-xdotool windowfocus --sync "$window"
 sleep 2
 xdotool key F1
 sleep 0.5
@@ -189,8 +189,13 @@ for i in $(seq 200); do
   ls alpenglow_*.png > /dev/null 2>&1 && break
   sleep 0.2
 done
-xdotool key Escape
-)");
+for i in $(seq 20); do
+  xdotool search --name '^Alpenglow$' > /dev/null 2>&1 || break
+  xdotool key Escape
+  sleep 0.5
+done
+xdotool search --name '^Alpenglow$' && kill "$(xdotool getwindowpid "$window")"
+)sh");
   const std::string command = "DISPLAY=" + display_.name() + " bash '" + steps + "' '" +
                               folder_.path() + "' > '" + at("keys.log") + "' 2>&1 &";
   ASSERT_EQ(std::system(command.c_str()), 0);

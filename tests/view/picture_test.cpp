@@ -57,7 +57,7 @@ TEST_F(ViewerPicture, TerrainWithShaftsIsTheRenderToo) {
   text["quality"] = "draft";
   text["terrain"]["height_map"] = ALPENGLOW_SAMPLES "/data/jacksboro.png";
   scene_ = folder_.write("terrain.json", text.dump());
-  play("settle\nsave @seen.exr\nreport @report.json\n");
+  play("settle\nsave @seen.exr\nreport @report.json\n", {"--validation"});
   EXPECT_EQ(report()["refusal"], "");
   // A pixel at a silhouette may fall on either side of it.
   EXPECT_LT(differing(read("seen.exr"), rendered(scene_, "160x96"), 0.02), 0.01);
