@@ -125,7 +125,7 @@ void Interface::record(VkCommandBuffer commands) {
 }
 
 bool Interface::wantsKeyboard() {
-  return ImGui::GetIO().WantCaptureKeyboard || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+  return ImGui::GetIO().WantTextInput || ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
 }
 bool Interface::wantsMouse() { return ImGui::GetIO().WantCaptureMouse; }
 VkCommandBuffer Interface::recording() { return g_recording; }
