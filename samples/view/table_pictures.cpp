@@ -13,6 +13,7 @@
 
 #include "interface.h"
 #include "picture.h"
+#include "widgets.h"
 
 namespace alpenglow::view {
 namespace {
@@ -93,12 +94,9 @@ void TablePictures::make(const Tables* tables, const TableDesc& desc) {
     return;
   }
   chosen_ = std::min(chosen_, all.size() - 1);
-  if (ImGui::BeginCombo("table", all[chosen_].name)) {
-    for (size_t i = 0; i < all.size(); ++i) {
-      if (ImGui::Selectable(all[i].name, i == chosen_)) chosen_ = i;
-    }
-    ImGui::EndCombo();
-  }
+  list(
+      "table", all[chosen_].name, all.size(), chosen_, [&](size_t i) { return all[i].name; },
+      &chosen_);
   const Shown& shown = all[chosen_];
   ImGui::TextDisabled("across, down%s: %s", shown.volume ? "; layer" : "", shown.axes);
   if (shown.volume) ImGui::SliderFloat("layer", &layer_, 0.0f, 1.0f, "%.3f of the layers");
@@ -116,9 +114,9 @@ void TablePictures::make(const Tables* tables, const TableDesc& desc) {
   const Push push = {{at.x * pixels.x, at.y * pixels.y, width * pixels.x, height * pixels.y},
                      {std::min(layer_, 0.9999f), look.from, look.to, look.logarithm ? 1.0f : 0.0f}};
   draws_.push_back({this, pipelineFor(shown), tableSet(tables), push});
-  ImDrawList* list = ImGui::GetWindowDrawList();
-  list->AddCallback(draw, &draws_.back());
-  list->AddCallback(ImDrawCallback_ResetRenderState, nullptr);
+  ImDrawList* drawing = ImGui::GetWindowDrawList();
+  drawing->AddCallback(draw, &draws_.back());
+  drawing->AddCallback(ImDrawCallback_ResetRenderState, nullptr);
   ImGui::Dummy({width, height});
 }
 

@@ -100,16 +100,27 @@ void hint(const std::string& text) {
   ImGui::EndTooltip();
 }
 
+bool list(const char* label, const char* shown, size_t count, size_t now,
+          const std::function<const char*(size_t)>& nameOf, size_t* chosen) {
+  if (!ImGui::BeginCombo(label, shown)) return false;
+  bool set = false;
+  for (size_t i = 0; i < count; ++i) {
+    if (!ImGui::Selectable(nameOf(i), i == now)) continue;
+    *chosen = i;
+    set = true;
+  }
+  if (escapePressed()) ImGui::CloseCurrentPopup();
+  ImGui::EndCombo();
+  return set;
+}
+
 void combo(State* state, const char* name, const char* label) {
   const Choice* choice = findChoice(name);
   const size_t now = choice->get(*state);
   const char* shown = now < choice->values.size() ? choice->values[now].c_str() : "(own values)";
-  if (!ImGui::BeginCombo(label, shown)) return;
-  for (size_t i = 0; i < choice->values.size(); ++i) {
-    if (ImGui::Selectable(choice->values[i].c_str(), i == now)) choice->set(state, i);
-  }
-  if (escapePressed()) ImGui::CloseCurrentPopup();
-  ImGui::EndCombo();
+  size_t chosen = 0;
+  const auto nameOf = [choice](size_t i) { return choice->values[i].c_str(); };
+  if (list(label, shown, choice->values.size(), now, nameOf, &chosen)) choice->set(state, chosen);
 }
 
 std::optional<double> edited(State* state, const std::string& label, const std::string& id,

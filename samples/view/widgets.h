@@ -1,6 +1,7 @@
 // What sections of the panel are made of.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -12,6 +13,10 @@ struct Parameter;
 
 /// Text where the mouse rests on the last widget.
 void hint(const std::string& text);
+
+/// A list, which Escape closes; `now` may be none of them. Whether `*chosen` was set.
+bool list(const char* label, const char* shown, size_t count, size_t now,
+          const std::function<const char*(size_t)>& nameOf, size_t* chosen);
 
 /// A list of a choice's values (choices.h).
 void combo(State* state, const char* name, const char* label);
