@@ -11,6 +11,7 @@
 
 #include "engine/deletion_queue.h"
 #include "engine/dispatch.h"
+#include "engine/frames.h"
 #include "engine/result.h"
 
 #if defined(__GNUC__)
@@ -121,6 +122,9 @@ class Device {
   }
 
   DeletionQueue& deletions() { return deletions_; }
+  FrameList& frames() { return frames_; }
+  uint64_t submitting() const { return frames_.submitting(); }  ///< The frame that is recorded now.
+  uint64_t completed() const { return frames_.completed(); }    ///< The newest that has finished.
   Counters& counters() { return counters_; }
   const Counters& counters() const { return counters_; }
   /// Counts a pipeline, and its shader variant when no pipeline had this key before.
@@ -139,6 +143,7 @@ class Device {
   VkPhysicalDeviceProperties properties_ = {};
   VkPhysicalDeviceMemoryProperties memoryProperties_ = {};
   Counters counters_;
+  FrameList frames_;
   DeletionQueue deletions_;
   std::mutex variantsMutex_;
   std::vector<uint64_t> variants_;  ///< Sorted keys.

@@ -1,3 +1,4 @@
+#include <cinttypes>
 #include <new>
 
 #include "atmosphere/api/context_impl.h"
@@ -100,23 +101,43 @@ Status createContext(const ContextDesc& desc, Context** out) {
 
 void destroyContext(Context* context) {
   if (context == nullptr) return;
-  if (context->bake != nullptr) {
-    const uint32_t tables = context->bake->liveTables, views = context->bake->liveViews;
-    if (tables != 0 || views != 0) {
-      context->device->notice(Severity::Warning,
-                              "The context is destroyed before %u Tables and %u View objects of "
-                              "it, but must be the last: what they hold is lost.",
-                              tables, views);
-    }
-  }
+  if (context->device != nullptr) context->device->frames().destroyAll();
   sky::ProbePass::destroy(context->probe);
   bake::Resources::destroy(context->bake);
   engine::Device::destroy(context->device);
   delete context;
 }
 
-void collect(Context* context, uint64_t completed) {
-  if (context != nullptr) context->device->deletions().collect(completed);
+Status advanceFrame(Context* context, uint64_t submitting, uint64_t completed) {
+  if (context == nullptr) return Status::InvalidArgument;
+  engine::Device& device = *context->device;
+  const uint64_t submittingBefore = device.submitting(), completedBefore = device.completed();
+  if (submitting == 0 || completed > submitting || submitting < submittingBefore ||
+      completed < completedBefore) {
+    const char* rule = submitting == 0          ? "the frame being recorded counts from 1"
+                       : completed > submitting ? "no frame completes before it is recorded"
+                                                : "neither number falls";
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "advanceFrame got submitting %" PRIu64 " and completed %" PRIu64
+                       " after %" PRIu64 " and %" PRIu64 ", but %s.",
+                       submitting, completed, submittingBefore, completedBefore, rule);
+  }
+  device.frames().advance(submitting, completed);
+  device.deletions().collect(completed);
+  return Status::Ok;
+}
+
+Status abandonFrame(Context* context, uint64_t frame) {
+  if (context == nullptr) return Status::InvalidArgument;
+  engine::Device& device = *context->device;
+  if (frame <= device.completed() || frame > device.submitting()) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "abandonFrame got frame %" PRIu64 ", but needs one above the completed %" PRIu64
+                       " and not above the one being recorded, %" PRIu64 ".",
+                       frame, device.completed(), device.submitting());
+  }
+  device.frames().abandon(frame);
+  return Status::Ok;
 }
 
 void resourceReport(const Context* context, ResourceReport* out) {

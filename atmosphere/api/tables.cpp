@@ -11,17 +11,6 @@ namespace alpenglow {
 inline namespace v1 {
 namespace {
 
-// What a call defers to its frame would be freed while it is recorded, if that had completed.
-Status checkFrame(const Tables& tables, const FrameInfo& frame, const char* call) {
-  if (frame.submitting > frame.completed) return Status::Ok;
-  return tables.resources().device().fail(Status::InvalidArgument, VK_SUCCESS,
-                                          "%s got the frame {submitting %llu, completed %llu}, but "
-                                          "the frame being recorded must be above "
-                                          "the last completed one; count from 1.",
-                                          call, static_cast<unsigned long long>(frame.submitting),
-                                          static_cast<unsigned long long>(frame.completed));
-}
-
 Tables::MakePlan planOf(Solver solver) {
   if (solver == Solver::Standard) return bake::standardPlan;
   if (solver != Solver::Moments) return models::modelPlan;
@@ -63,14 +52,14 @@ Status createTables(Context* context, const Parameters& parameters, const TableD
   return Tables::create(*context->bake, simulated, full, planOf(full.solver), bakes, out);
 }
 
-void destroyTables(Tables* tables, const FrameInfo& frame) { Tables::destroy(tables, frame); }
+void destroyTables(Tables* tables) {
+  if (tables != nullptr) Tables::destroy(tables, tables->resources().device().submitting());
+}
 
-Status recordBake(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame, uint64_t budget,
+Status recordBake(Tables* tables, VkCommandBuffer commands, uint64_t budget,
                   BakeProgress* progress) {
   if (tables == nullptr || commands == VK_NULL_HANDLE) return nullArgument(tables, "recordBake");
-  const Status status = checkFrame(*tables, frame, "recordBake");
-  if (status != Status::Ok) return status;
-  return tables->recordBake(commands, frame, budget, progress);
+  return tables->recordBake(commands, budget, progress);
 }
 
 Status tableInfo(const Tables* tables, TableId id, TableInfo* out) {
@@ -85,13 +74,11 @@ Status recordTableReadback(Tables* tables, VkCommandBuffer commands, TableId id,
   return tables->recordReadback(commands, id, buffer, offset);
 }
 
-Status recordTableUpload(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame,
+Status recordTableUpload(Tables* tables, VkCommandBuffer commands,
                          TableId id, VkBuffer buffer, VkDeviceSize offset) {
   if (tables == nullptr || commands == VK_NULL_HANDLE)
     return nullArgument(tables, "recordTableUpload");
-  const Status status = checkFrame(*tables, frame, "recordTableUpload");
-  if (status != Status::Ok) return status;
-  return tables->recordUpload(commands, frame, id, buffer, offset);
+  return tables->recordUpload(commands, id, buffer, offset);
 }
 
 bool tablesReady(const Tables* tables) { return tables != nullptr && tables->ready(); }
@@ -104,15 +91,13 @@ VkDescriptorSet tableSet(const Tables* tables) {
   return tables != nullptr ? tables->descriptorSet() : VK_NULL_HANDLE;
 }
 
-Status recordProbe(Context* context, const Tables* tables, VkCommandBuffer commands,
-                   const FrameInfo& frame, const ProbeQuery* queries, uint32_t count,
+Status recordProbe(Context* context, const Tables* tables, VkCommandBuffer commands, const ProbeQuery* queries, uint32_t count,
                    VkBuffer buffer) {
   if (context == nullptr || tables == nullptr || commands == VK_NULL_HANDLE)
     return nullArgument(tables, "recordProbe");
   Status status = requireCapability(*context, kCapabilityBake, "recordProbe");
-  if (status == Status::Ok) status = checkFrame(*tables, frame, "recordProbe");
   if (status != Status::Ok) return status;
-  return context->probe->record(*tables, commands, frame, queries, count, buffer);
+  return context->probe->record(*tables, commands, queries, count, buffer);
 }
 
 Status readProbe(const Tables* tables, const ProbeQuery* queries, uint32_t count, const void* raw,

@@ -76,6 +76,11 @@ void Bench::describeDriver() {
             std::to_string(VK_API_VERSION_PATCH(version));
 }
 
+void Bench::advance() {
+  const uint64_t next = device_->skipFrame();
+  if (advanceFrame(context_, next, next - 1) != Status::Ok) throw Failure(error_);
+}
+
 double Bench::run(const std::function<Status(VkCommandBuffer)>& record) {
   headless::Timing timing;
   std::string failed;
@@ -83,7 +88,7 @@ double Bench::run(const std::function<Status(VkCommandBuffer)>& record) {
   const bool good = device_->run(
       [&](VkCommandBuffer commands) { return record(commands) == Status::Ok; }, &failed, &timing);
   if (!good) throw Failure(error_.empty() ? failed : error_);
-  collect(context_, device_->frame().completed);
+  advance();
   return software_ || timing.gpuSeconds < 0.0 ? timing.cpuSeconds : timing.gpuSeconds;
 }
 
@@ -96,14 +101,14 @@ TablesPointer Bench::bake(const Parameters& parameters, const TableDesc& desc, d
   BakeProgress progress;
   while (!progress.done) {
     *seconds += run([&](VkCommandBuffer commands) {
-      return recordBake(made, commands, device_->frame(), kSliceBudget, &progress);
+      return recordBake(made, commands, kSliceBudget, &progress);
     });
   }
   return tables;
 }
 
 ResourceReport Bench::resources() {
-  collect(context_, device_->frame().completed);
+  advance();
   ResourceReport report;
   resourceReport(context_, &report);
   return report;
@@ -163,13 +168,12 @@ void Bench::begin(VkCommandBuffer commands, const VkRect2D& area, VkAttachmentLo
 
 double Bench::frame(View* view, const Drawn& drawn, const SkyDraw& draw) {
   return run([&](VkCommandBuffer commands) {
-    const FrameInfo frame = device_->frame();
     Status status = Status::Ok;
-    if (drawn.sliced) status = recordSkySlice(view, commands, frame, drawn.tables, draw);
+    if (drawn.sliced) status = recordSkySlice(view, commands, drawn.tables, draw);
     if (status != Status::Ok) return status;
     barrier(commands, false);
     begin(commands, draw.viewport, VK_ATTACHMENT_LOAD_OP_DONT_CARE);
-    status = recordSky(view, commands, frame, drawn.tables, draw);
+    status = recordSky(view, commands, drawn.tables, draw);
     function<PFN_vkCmdEndRendering>("vkCmdEndRendering")(commands);
     return status;
   });
@@ -207,7 +211,6 @@ io::LinearImage Bench::read(VkExtent2D size) {
 
 Status Bench::recordRays(VkCommandBuffer commands, View* view, const Drawn& drawn,
                          const std::vector<SkyDraw>& draws) {
-  const FrameInfo frame = device_->frame();
   barrier(commands, false);
   const SkyDraw* sliced = nullptr;
   for (size_t i = 0; i < draws.size(); ++i) {
@@ -219,13 +222,13 @@ Status Bench::recordRays(VkCommandBuffer commands, View* view, const Drawn& draw
         std::equal(draw.sun.direction, draw.sun.direction + 3, sliced->sun.direction);
     Status status = Status::Ok;
     if (drawn.sliced && !same) {
-      status = recordSkySlice(view, commands, frame, drawn.tables, draw);
+      status = recordSkySlice(view, commands, drawn.tables, draw);
       sliced = &draw;
     }
     if (status != Status::Ok) return status;
     begin(commands, draw.viewport,
           i == 0 ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD);
-    status = recordSky(view, commands, frame, drawn.tables, draw);
+    status = recordSky(view, commands, drawn.tables, draw);
     function<PFN_vkCmdEndRendering>("vkCmdEndRendering")(commands);
     if (status != Status::Ok) return status;
   }
@@ -296,7 +299,7 @@ void Bench::upload(Tables* tables, TableId id, const std::vector<float>& rgba) {
     }
   }
   run([&](VkCommandBuffer commands) {
-    return recordTableUpload(tables, commands, device_->frame(), id, buffer.buffer(), 0);
+    return recordTableUpload(tables, commands, id, buffer.buffer(), 0);
   });
 }
 

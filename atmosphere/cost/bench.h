@@ -23,12 +23,12 @@ class Failure : public std::runtime_error {
 /// Freed with the frame that the device is at.
 struct TablesDeleter {
   headless::Device* device = nullptr;
-  void operator()(Tables* tables) const { destroyTables(tables, device->frame()); }
+  void operator()(Tables* tables) const { destroyTables(tables); }
 };
 using TablesPointer = std::unique_ptr<Tables, TablesDeleter>;
 struct ViewDeleter {
   headless::Device* device = nullptr;
-  void operator()(View* view) const { destroyView(view, device->frame()); }
+  void operator()(View* view) const { destroyView(view); }
 };
 using ViewPointer = std::unique_ptr<View, ViewDeleter>;
 
@@ -81,6 +81,7 @@ class Bench {
 
  private:
   void upload(Tables* tables, TableId id, const std::vector<float>& rgba);
+  void advance();  ///< All that was recorded has completed.
   double run(const std::function<Status(VkCommandBuffer)>& record);
   Status recordRays(VkCommandBuffer commands, View* view, const Drawn& drawn,
                     const std::vector<SkyDraw>& draws);

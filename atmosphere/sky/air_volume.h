@@ -24,7 +24,7 @@ class AirVolume {
   static constexpr uint32_t kImages = 3;
 
   static Status create(bake::Resources& resources, EffectFlags without, AirVolume** out);
-  static void destroy(AirVolume* volume, const FrameInfo& frame);
+  static void destroy(AirVolume* volume, uint64_t frame);
   /// Of each of its images, for a view without these effects.
   static VkExtent3D extentFor(EffectFlags without);
 

@@ -42,7 +42,7 @@ class SkySlice {
   /// Texels of an image of it, and how many there are.
   static VkExtent3D extentFor(const TableDesc& desc, EffectFlags without);
   static uint32_t countFor(const TableDesc& desc, EffectFlags without);
-  static void destroy(SkySlice* slice, const FrameInfo& frame);
+  static void destroy(SkySlice* slice, uint64_t frame);
 
   /// Moments: any tables, whatever their quality.
   bool fits(const Tables& tables) const {

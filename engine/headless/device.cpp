@@ -139,7 +139,9 @@ ContextDesc Device::contextDesc() const {
   return desc;
 }
 
-FrameInfo Device::frame() const { return {impl_->completedFrame + 1, impl_->completedFrame}; }
+uint64_t Device::frame() const { return impl_->completedFrame + 1; }
+
+uint64_t Device::skipFrame() { return ++impl_->completedFrame + 1; }
 
 PFN_vkVoidFunction Device::function(const char* name) const {
   return impl_->vk().GetDeviceProcAddr(impl_->device, name);

@@ -80,7 +80,7 @@ double Session::run(const std::function<std::string(VkCommandBuffer)>& record) {
   if (thrown) std::rethrow_exception(thrown);
   if (!good) throw Failure(error);
   book(pass, before, timing);
-  collect(context_, device_->frame().completed);
+  check(advanceFrame(context_, device_->frame(), device_->frame() - 1));
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -92,8 +92,7 @@ samples::Gpu Session::gpu() {
       return std::string(pass);
     });
   };
-  return {device_.get(), runPass, [this](Status status) { check(status); },
-          [this] { return device_->frame(); }};
+  return {device_.get(), runPass, [this](Status status) { check(status); }};
 }
 
 void Session::book(const std::string& pass, const ResourceReport& before,

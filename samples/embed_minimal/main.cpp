@@ -172,7 +172,7 @@ void recordPicture(Host& host, ag::View* view, const ag::Tables* tables, const a
       VK_STRUCTURE_TYPE_RENDERING_INFO, nullptr, 0, sky.viewport, 1, 0, 1, &color};
   transition(host, VK_IMAGE_LAYOUT_UNDEFINED, kDraw);
   vkCmdBeginRendering(host.commands, &rendering);
-  check(ag::recordSky(view, host.commands, host.frame, tables, sky), "Drawing the sky");
+  check(ag::recordSky(view, host.commands, tables, sky), "Drawing the sky");
   vkCmdEndRendering(host.commands);
   transition(host, kDraw, kCopy);
   VkBufferImageCopy copy{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {kWidth, kHeight, 1}};
@@ -204,7 +204,7 @@ void drawSky(Host& host, const std::string& path, bool small) {
   check(ag::createTables(context, earth, desc, &tables), "Making the tables");
   for (ag::BakeProgress progress; !progress.done;) {
     runFrame(host, [&] {
-      check(ag::recordBake(tables, host.commands, host.frame, kSliceUnits, &progress), "Baking");
+      check(ag::recordBake(tables, host.commands, kSliceUnits, &progress), "Baking");
     });
   }
 
@@ -221,8 +221,8 @@ void drawSky(Host& host, const std::string& path, bool small) {
   runFrame(host, [&] { recordPicture(host, view, tables, sky); });
   writePicture(host, path);
 
-  ag::destroyView(view, host.frame);
-  ag::destroyTables(tables, host.frame);
+  ag::destroyView(view);
+  ag::destroyTables(tables);
   ag::destroyContext(context);
 }
 

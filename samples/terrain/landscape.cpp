@@ -46,7 +46,7 @@ Landscape::Landscape(const Gpu* gpu, const io::Scene& scene, const TerrainMesh* 
 }
 
 Landscape::~Landscape() {
-  if (shafts_ != nullptr) destroyShafts(shafts_, gpu_->frame());
+  if (shafts_ != nullptr) destroyShafts(shafts_);
 }
 
 void Landscape::uploadTerrain(const io::SceneTerrain& terrain, const io::AlbedoMap* albedo) {

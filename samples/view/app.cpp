@@ -95,8 +95,7 @@ Host::Host(const AppOptions& options, Window* window) {
       },
       [this](Status status) {
         if (status != Status::Ok) throw Failure(lastError);
-      },
-      [this] { return presenter->numbers(); });
+      });
   presenter.emplace(&*gpu, window, options.config.vsync);
   ContextDesc desc = device->contextDesc();
   desc.capabilities = capabilities;
@@ -175,7 +174,8 @@ void App::frame() {
     return;
   }
   frameTimes_ms_.push_back(static_cast<float>(1e3 * seconds));
-  collect(host_.context, host_.presenter->numbers().completed);
+  const FrameNumbers numbers = host_.presenter->numbers();
+  host_.gpu->check(advanceFrame(host_.context, numbers.submitting, numbers.completed));
   timer_.begin(frame);
   state_.scene.width = frame.size.width;
   state_.scene.height = frame.size.height;

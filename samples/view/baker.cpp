@@ -41,7 +41,7 @@ void Baker::start(bool draft) {
   Tables* made = nullptr;
   gpu_->check(createTables(context_, air.parameters, air.desc, &made));
   const samples::Gpu* gpu = gpu_;
-  air.tables = {made, [gpu](Tables* tables) { destroyTables(tables, gpu->frame()); }};
+  air.tables = {made, [gpu](Tables* tables) { destroyTables(tables); }};
   baking_ = std::move(air);
   draft_ = draft;
   progress_ = {};
@@ -109,7 +109,7 @@ void Baker::record(const Frame& frame, PassTimer* timer, double seconds) {
     const Kind before = {baking_->desc.quality, progress_.passFinished ? "" : progress_.pass};
     const double budget = std::max(seconds * unitsPerSecond(before), 1.0);
     timer->time(frame, "bake", [&] {
-      gpu_->check(recordBake(baking_->tables.get(), frame.commands, gpu_->frame(),
+      gpu_->check(recordBake(baking_->tables.get(), frame.commands,
                              static_cast<uint64_t>(budget), &progress_));
     });
     const Kind kind = {baking_->desc.quality, progress_.pass};

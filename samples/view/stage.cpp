@@ -27,7 +27,7 @@ Stage::Stage(const samples::Gpu* gpu, Context* context, VkExtent2D size)
 Stage::~Stage() { destroyAll(); }
 
 void Stage::destroyAll() {
-  if (view_ != nullptr) destroyView(view_, gpu_->frame());
+  if (view_ != nullptr) destroyView(view_);
   view_ = nullptr;
   landscape_.reset();
   stars_.reset();
@@ -146,13 +146,13 @@ void Stage::recordShadows(const Frame& frame, const Air& air, const SkyDraw& dra
   const Casters casters = landscape_->casters();
   if (!std::equal(mappedSun_, mappedSun_ + 3, draw.sun.direction)) {
     timer->time(frame, "sun map", [&] {
-      done(recordSunMap(landscape_->shafts(), frame.commands, gpu_->frame(), draw.sun.direction,
+      done(recordSunMap(landscape_->shafts(), frame.commands, draw.sun.direction,
                         casters));
     });
     std::copy_n(draw.sun.direction, 3, mappedSun_);
   }
   timer->time(frame, "shafts", [&] {
-    done(recordShafts(landscape_->shafts(), view_, frame.commands, gpu_->frame(), air.tables.get(),
+    done(recordShafts(landscape_->shafts(), view_, frame.commands, air.tables.get(),
                       draw, casters));
   });
 }
@@ -161,15 +161,14 @@ void Stage::recordShadows(const Frame& frame, const Air& air, const SkyDraw& dra
 void Stage::recordScope(const Frame& frame, const io::Scene& scene, const Air& air,
                         const SkyDraw& draw, PassTimer* timer) {
   const Tables* tables = air.tables.get();
-  const FrameInfo numbers = gpu_->frame();
   if (mesh_) {
     timer->time(frame, "terrain", [&] { landscape_->recordTerrain(frame.commands, tables, draw); });
     if (key_->air) {
       timer->time(frame, "air",
-                  [&] { done(recordAir(view_, frame.commands, numbers, tables, draw)); });
+                  [&] { done(recordAir(view_, frame.commands, tables, draw)); });
     }
   }
-  timer->time(frame, "sky", [&] { done(recordSky(view_, frame.commands, numbers, tables, draw)); });
+  timer->time(frame, "sky", [&] { done(recordSky(view_, frame.commands, tables, draw)); });
   if (scene.stars && stars_) {
     timer->time(frame, "stars", [&] {
       stars_->record(frame.commands, air.parameters, tables, draw, scene.stars->siderealHours);
@@ -194,7 +193,7 @@ void Stage::record(const Frame& frame, const io::Scene& scene, const Air& air, S
   if (landscape_) draw.depth = landscape_->depthRange(draw.camera);
   if (key_->sliced) {
     timer->time(frame, "sky slice", [&] {
-      done(recordSkySlice(view_, frame.commands, gpu_->frame(), air.tables.get(), draw));
+      done(recordSkySlice(view_, frame.commands, air.tables.get(), draw));
     });
   }
   if (landscape_) landscape_->recordFrame(frame.commands, draw);

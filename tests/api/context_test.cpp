@@ -42,7 +42,6 @@ TEST_F(StandardSkyTest, ContextArgumentsAreChecked) {
   desc.diagnostic = nullptr;  // Nobody listens: still refused, nothing else.
   EXPECT_EQ(createContext(desc, &made), Status::Unsupported);
   destroyContext(nullptr);
-  collect(nullptr, 1);
   resourceReport(nullptr, nullptr);
 }
 
@@ -94,7 +93,7 @@ TEST_F(StandardSkyTest, ASkyContextTakesUploadsButDoesNotBake) {
   EXPECT_EQ(report.images, 4u);
   BakeProgress progress;
   run([&](VkCommandBuffer commands) {
-    EXPECT_EQ(recordBake(empty, commands, device().frame(), 0, &progress), Status::Unsupported);
+    EXPECT_EQ(recordBake(empty, commands, 0, &progress), Status::Unsupported);
     return true;
   });
   EXPECT_TRUE(contains(lastDiagnostic(), "kCapabilityBake")) << lastDiagnostic();
@@ -102,11 +101,11 @@ TEST_F(StandardSkyTest, ASkyContextTakesUploadsButDoesNotBake) {
   const headless::HostBuffer answers =
       device().createHostBuffer(kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, nullptr);
   run([&](VkCommandBuffer commands) {
-    EXPECT_EQ(recordProbe(made, empty, commands, device().frame(), &query, 1, answers.buffer()),
+    EXPECT_EQ(recordProbe(made, empty, commands, &query, 1, answers.buffer()),
               Status::Unsupported);
     return true;
   });
-  destroyTables(empty, FrameInfo{});
+  destroyTables(empty);
   resourceReport(made, &report);
   EXPECT_EQ(report.bytes, 0u);
   destroyContext(made);
@@ -138,12 +137,12 @@ TEST_F(StandardSkyTest, WithoutDynamicRenderingRenderPassesDraw) {
     viewDesc.renderPass = target.renderPass();
     ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok) << lastDiagnostic();
     const Picture drawn = target.draw([&](VkCommandBuffer commands) {
-      return recordSky(view, commands, device().frame(), baked, draw) == Status::Ok;
+      return recordSky(view, commands, baked, draw) == Status::Ok;
     });
     EXPECT_EQ(drawn.data, picture(draw).data);
   }
-  destroyView(view, FrameInfo{});
-  destroyTables(baked, FrameInfo{});
+  destroyView(view);
+  destroyTables(baked);
   destroyContext(made);
 }
 
@@ -169,13 +168,12 @@ TEST_F(StandardSkyTest, TableAndProbeArgumentsAreChecked) {
   Tables* const baked = tables();
   const headless::HostBuffer answers =
       device().createHostBuffer(2 * kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, nullptr);
-  const FrameInfo frame = device().frame();
   ResourceReport before, after;
   resourceReport(context(), &before);
   run([&](VkCommandBuffer commands) {
     const auto refuses = [&](const ProbeQuery& query, const char* part) {
       const ProbeQuery queries[] = {ProbeQuery{}, query};
-      EXPECT_EQ(recordProbe(context(), baked, commands, frame, queries, 2, answers.buffer()),
+      EXPECT_EQ(recordProbe(context(), baked, commands, queries, 2, answers.buffer()),
                 Status::InvalidArgument)
           << part;
       EXPECT_TRUE(contains(message(), "ProbeQuery 1") && contains(message(), part)) << message();
@@ -198,15 +196,15 @@ TEST_F(StandardSkyTest, TableAndProbeArgumentsAreChecked) {
     query.distance_m = std::numeric_limits<double>::quiet_NaN();
     refuses(query, "distance_m = ");
     const ProbeQuery good;
-    EXPECT_EQ(recordProbe(context(), baked, commands, frame, &good, 0, answers.buffer()),
+    EXPECT_EQ(recordProbe(context(), baked, commands, &good, 0, answers.buffer()),
               Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(context(), baked, commands, frame, nullptr, 1, answers.buffer()),
+    EXPECT_EQ(recordProbe(context(), baked, commands, nullptr, 1, answers.buffer()),
               Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(context(), baked, commands, frame, &good, 1, VK_NULL_HANDLE),
+    EXPECT_EQ(recordProbe(context(), baked, commands, &good, 1, VK_NULL_HANDLE),
               Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(nullptr, baked, commands, frame, &good, 1, answers.buffer()),
+    EXPECT_EQ(recordProbe(nullptr, baked, commands, &good, 1, answers.buffer()),
               Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(context(), nullptr, commands, frame, &good, 1, answers.buffer()),
+    EXPECT_EQ(recordProbe(context(), nullptr, commands, &good, 1, answers.buffer()),
               Status::InvalidArgument);
     return true;
   });
@@ -247,7 +245,7 @@ TEST_F(StandardSkyTest, ContextsAndAtmospheresDoNotMix) {
       done = true;
       for (Tables* one : baked) {
         BakeProgress progress;
-        EXPECT_EQ(recordBake(one, commands, device().frame(), 20000000, &progress), Status::Ok);
+        EXPECT_EQ(recordBake(one, commands, 20000000, &progress), Status::Ok);
         done = done && progress.done;
       }
       return true;
@@ -256,7 +254,7 @@ TEST_F(StandardSkyTest, ContextsAndAtmospheresDoNotMix) {
   for (size_t i = 0; i < 6; ++i) {
     const auto answers = probe(device(), contexts[i % 2], baked[i], {query});
     EXPECT_EQ(answers.at(0).skyRadiance[2], alone[i % 3]) << i;
-    destroyTables(baked[i], FrameInfo{});
+    destroyTables(baked[i]);
   }
   for (Context* one : contexts) destroyContext(one);
   EXPECT_TRUE(diagnostics().empty()) << lastDiagnostic();

@@ -107,14 +107,14 @@ TEST_F(StandardSkyTest, HooksServeAllMemory) {
   query.viewZenith = 1.0;
   EXPECT_EQ(probe(device(), made, baked, {query}).at(0).skyRadiance[1],
             probeAll({query}).at(0).skyRadiance[1]);
-  collect(made, device().frame().completed);
+  finishFrames(made);
   EXPECT_LT(host.alive.size(), whileBaking) << "the scratch block is still there";
   EXPECT_GE(host.allocations, 4);
   EXPECT_EQ(host.names.count("Alpenglow tables"), 1u);
   ResourceReport report;
   resourceReport(made, &report);
   EXPECT_GT(report.bytes, 0u);
-  destroyTables(baked, FrameInfo{});
+  destroyTables(baked);
   EXPECT_TRUE(host.alive.empty());
   resourceReport(made, &report);
   EXPECT_EQ(report.bytes, 0u);
@@ -223,7 +223,7 @@ TEST_F(StandardSkyTest, MappedRangesShareOneMemory) {
   ASSERT_EQ(createTables(made, preset("earth"), smallTables(), &second), Status::Ok)
       << lastDiagnostic();
   EXPECT_EQ(pool.alive.size(), 2u);
-  destroyTables(first, FrameInfo{});
+  destroyTables(first);
   EXPECT_EQ(pool.alive.size(), 1u);
   // The second range and those to come are still mapped.
   bakeAll(device(), second);
@@ -232,7 +232,7 @@ TEST_F(StandardSkyTest, MappedRangesShareOneMemory) {
   EXPECT_EQ(probe(device(), made, second, {query}).at(0).skyRadiance[1],
             probeAll({query}).at(0).skyRadiance[1]);
   EXPECT_EQ(pool.mostAlive, 2u);
-  destroyTables(second, FrameInfo{});
+  destroyTables(second);
   destroyContext(made);
   EXPECT_TRUE(pool.alive.empty());
   EXPECT_TRUE(pool.dedicated.alive.empty());
@@ -304,8 +304,8 @@ TEST_F(StandardSkyTest, AllocationCallbacksArePaired) {
   ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
   EXPECT_EQ(probe(device(), made, baked, {ProbeQuery{}}).size(), 1u);
   EXPECT_GT(counter.alive, 10);  // Not every driver asks for every object.
-  destroyView(view, FrameInfo{});
-  destroyTables(baked, FrameInfo{});
+  destroyView(view);
+  destroyTables(baked);
   destroyContext(made);
   EXPECT_EQ(counter.alive, 0);
 }
@@ -333,7 +333,7 @@ TEST_F(StandardSkyTest, RecordingAllocatesNothing) {
           const int before = counter.total;
           newCalls = 0;
           counting = true;
-          const Status status = recordBake(baked, commands, bare->frame(), 1000000, &progress);
+          const Status status = recordBake(baked, commands, 1000000, &progress);
           counting = false;
           slices += last ? 0 : 1;
           allocations += last ? 0 : newCalls;
@@ -364,15 +364,15 @@ TEST_F(StandardSkyTest, RecordingAllocatesNothing) {
       const int before = counter.total;
       newCalls = 0;
       counting = true;
-      const Status status = recordSky(view, commands, bare->frame(), baked, draw);
+      const Status status = recordSky(view, commands, baked, draw);
       counting = false;
       EXPECT_EQ(newCalls, 0);
       EXPECT_EQ(counter.total, before);
       return status == Status::Ok;
     });
   }
-  destroyView(view, FrameInfo{});
-  destroyTables(baked, FrameInfo{});
+  destroyView(view);
+  destroyTables(baked);
   destroyContext(made);
   EXPECT_EQ(counter.alive, 0);
 }

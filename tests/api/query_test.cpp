@@ -50,7 +50,7 @@ class QueryTest : public StandardSkyTest {
     return tables;
   }
   void TearDown() override {
-    for (Tables* tables : made_) destroyTables(tables, device().frame());
+    for (Tables* tables : made_) destroyTables(tables);
     StandardSkyTest::TearDown();
   }
 

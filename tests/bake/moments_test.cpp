@@ -38,7 +38,7 @@ TEST_F(MomentsTest, TheBytesDoNotDependOnTheBudget) {
   BakeProgress progress;
   while (!progress.done && !HasFailure()) {
     run([&](VkCommandBuffer commands) {
-      return recordBake(tables, commands, device().frame(), random() % 100'000, &progress) ==
+      return recordBake(tables, commands, random() % 100'000, &progress) ==
              Status::Ok;
     });
   }
@@ -52,7 +52,7 @@ TEST_F(MomentsTest, ThePassesAreNamedAndCounted) {
   BakeProgress progress;
   while (!progress.done && !HasFailure()) {
     run([&](VkCommandBuffer commands) {
-      return recordBake(tables, commands, device().frame(), 0, &progress) == Status::Ok;
+      return recordBake(tables, commands, 0, &progress) == Status::Ok;
     });
     done += progress.unitsRecorded;
     EXPECT_TRUE(progress.passFinished);
@@ -167,7 +167,7 @@ TEST_F(MomentsTest, ScratchIsFreedWhenTheLastFrameCompletes) {
   Tables* tables = makeTables(preset("earth"), tinyDesc(4));
   resourceReport(context(), &before);
   bake(tables);
-  collect(context(), device().frame().completed);
+  finishFrames(context());
   resourceReport(context(), &after);
   EXPECT_LT(after.bytes, before.bytes);
   EXPECT_EQ(after.images, 3u);

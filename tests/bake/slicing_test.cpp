@@ -41,7 +41,7 @@ TEST_F(SlicingTest, TheBytesDoNotDependOnTheBudget) {
   BakeProgress progress;
   while (!progress.done && !HasFailure()) {
     run([&](VkCommandBuffer commands) {
-      return recordBake(tables, commands, device().frame(), random() % 500'000, &progress) ==
+      return recordBake(tables, commands, random() % 500'000, &progress) ==
              Status::Ok;
     });
   }
@@ -57,7 +57,7 @@ TEST_F(SlicingTest, ACallStaysInItsPassAndItsBudget) {
   std::string passes;
   while (!progress.done && !HasFailure()) {
     run([&](VkCommandBuffer commands) {
-      return recordBake(tables, commands, device().frame(), kBudget, &progress) == Status::Ok;
+      return recordBake(tables, commands, kBudget, &progress) == Status::Ok;
     });
     ++calls;
     done += progress.unitsRecorded;
@@ -73,7 +73,7 @@ TEST_F(SlicingTest, ACallStaysInItsPassAndItsBudget) {
   EXPECT_EQ(passes, "T, dE 1, dS 1, dL 2, dJ 2, dE 2, dS 2, dL 3, dJ 3, dE 3, dS 3, ");
   // One call more does nothing, and says that all is done.
   run([&](VkCommandBuffer commands) {
-    return recordBake(tables, commands, device().frame(), 0, &progress) == Status::Ok;
+    return recordBake(tables, commands, 0, &progress) == Status::Ok;
   });
   EXPECT_TRUE(progress.done);
   EXPECT_EQ(progress.unitsRecorded, 0u);
@@ -148,7 +148,7 @@ TEST_F(SlicingTest, ScratchIsFreedWhenTheLastFrameCompletes) {
   Tables* tables = makeTables(preset("earth"), tinyDesc());
   resourceReport(context(), &before);
   bake(tables);
-  collect(context(), device().frame().completed);
+  finishFrames(context());
   resourceReport(context(), &after);
   EXPECT_LT(after.bytes, before.bytes);
   EXPECT_EQ(after.images, before.images - 5);  // dE, dS, dJ, dL and its Mie part

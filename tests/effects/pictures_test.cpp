@@ -75,8 +75,8 @@ class EffectsTest : public SkyTest {
     const double most = difference(whole, part);
     std::printf("without 0x%02x: %.1e\n", without, most);
     EXPECT_LE(most, error) << without;
-    destroyTables(whole, FrameInfo{});
-    destroyTables(part, FrameInfo{});
+    destroyTables(whole);
+    destroyTables(part);
   }
 };
 
@@ -105,7 +105,7 @@ TEST_F(EffectsTest, ImagesThatStayAreThoseOfWhatIsOn) {
     const ResourceReport before = report();
     Tables* made = bake(preset("earth"), each.without);
     ASSERT_NE(made, nullptr);
-    collect(context(), ~uint64_t{0} >> 1);
+    finishFrames(context());
     EXPECT_EQ(report().images - before.images, each.images) << each.without;
     TableInfo info;
     const bool multiple = (each.without & kMultiple) == 0;
@@ -113,8 +113,8 @@ TEST_F(EffectsTest, ImagesThatStayAreThoseOfWhatIsOn) {
     const bool source = multiple && (each.without & kMie) == 0;
     EXPECT_EQ(tableInfo(made, TableId::Source, &info) == Status::Ok, source);
     EXPECT_FALSE(probeAll(queries(), made).empty());
-    destroyTables(made, FrameInfo{});
-    collect(context(), ~uint64_t{0} >> 1);
+    destroyTables(made);
+    finishFrames(context());
     EXPECT_EQ(report().images, before.images);
   }
 }

@@ -104,7 +104,7 @@ TEST_F(EffectQueryTest, TheCpuAnswersWhatTheDeviceAnswers) {
     EXPECT_GT(light, 0.0) << without;
     // E of the sky is there if it was baked.
     EXPECT_EQ(sky > 0.0, multiple && hasEffect(without, Effect::GroundIrradiance)) << without;
-    destroyTables(tables, FrameInfo{});
+    destroyTables(tables);
   }
 }
 

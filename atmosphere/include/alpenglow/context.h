@@ -73,13 +73,23 @@ struct ContextDesc {
 /// externally synchronised, and different ones may be recorded in parallel.
 Status createContext(const ContextDesc& desc, Context** out);
 
-/// Destroys the context and what still waits for a frame. The host guarantees that the GPU is done
-/// with it. Tables and views left alive are reported through the diagnostic callback, how many of
-/// each, and are lost: they must not be destroyed afterwards.
+/// The device must have finished with everything of the context. Tables and views that are alive are
+/// destroyed, too: they must not be used afterwards. Null is ignored, as by every destroy function.
 void destroyContext(Context* context);
 
-/// Destroys what frames up to `completed` used and destroyed objects left behind.
-void collect(Context* context, uint64_t completed);
+/// States the frame numbers of all other calls; once a frame, before anything of the frame is
+/// recorded or destroyed. `submitting` is the frame being recorded (from 1), `completed` the newest
+/// frame that has finished on every queue (0: none). Neither ever falls, and completed <=
+/// submitting; else InvalidArgument with a sentence, and the numbers stay. What a destroy function
+/// marks in frame n is freed by the first advanceFrame whose `completed` is at least n. Without any
+/// call the frame is 1. A host that waits for each frame passes (n + 1, n).
+Status advanceFrame(Context* context, uint64_t submitting, uint64_t completed);
+
+/// The commands recorded in `frame` (above the completed one) will never execute, for example since
+/// the swapchain was lost: call it before the next frame is recorded. LUTs, shadow maps, uploads and
+/// bake slices of that frame count as not recorded. A bake continues before that frame's first
+/// slice; from the start if slices of later frames were recorded.
+Status abandonFrame(Context* context, uint64_t frame);
 
 /// What the context holds now; for reports and tests. Counters only ever rise, except `bytes`,
 /// `images` and `buffers`, which are what is alive.

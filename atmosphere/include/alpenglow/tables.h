@@ -95,9 +95,9 @@ MomentSettings momentSettings(const Parameters& parameters, Quality quality,
 Status createTables(Context* context, const Parameters& parameters, const TableDesc& desc,
                     Tables** out);
 
-/// Frees the tables once `frame.completed` of a later call reaches `frame.submitting`. Also cancels
+/// Frees the tables once the frame being recorded has completed (advanceFrame). Also cancels
 /// a bake. Null is ignored.
-void destroyTables(Tables* tables, const FrameInfo& frame);
+void destroyTables(Tables* tables);
 
 /// One pass of the bake.
 struct BakeProgress {
@@ -118,7 +118,7 @@ struct BakeProgress {
 /// commands must execute in order on one queue. The finished tables are the same, byte for byte,
 /// however the bake is sliced. Leaves no state bound but the compute pipeline, set 0 and push
 /// constants. Scratch tables are freed when the frame of the last call completes.
-Status recordBake(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame, uint64_t budget,
+Status recordBake(Tables* tables, VkCommandBuffer commands, uint64_t budget,
                   BakeProgress* progress);
 
 enum class TableId : uint32_t {
@@ -161,7 +161,7 @@ Status recordTableReadback(Tables* tables, VkCommandBuffer commands, TableId id,
 /// Records the filling of OpticalDepth, Irradiance, Scattering or SingleMie from `buffer` (usage
 /// TRANSFER_SRC), laid out as a readback leaves it. When all of them are uploaded, the tables are
 /// ready, without a bake. The host checks that the data are for these parameters.
-Status recordTableUpload(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame,
+Status recordTableUpload(Tables* tables, VkCommandBuffer commands,
                          TableId id, VkBuffer buffer, VkDeviceSize offset);
 
 /// True when the tables are baked or uploaded, so that views and probes may use them.

@@ -38,15 +38,6 @@ struct Diagnostic {
 /// Called from the thread that made the failing call, never from a thread of ours (we start none).
 using DiagnosticFn = void (*)(void* user, const Diagnostic& diagnostic);
 
-/// Rising numbers from the host's timeline semaphore or fences. `submitting` is the frame being
-/// recorded now, `completed` the newest frame that the GPU has finished. What a frame may still
-/// use is destroyed once `completed` reaches its number. Count from 1: frame 0 has always
-/// completed.
-struct FrameInfo {
-  uint64_t submitting = 0;
-  uint64_t completed = 0;
-};
-
 /// Real Vulkan stages, accesses and layouts of an image at one point of a command buffer.
 struct ImageState {
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;

@@ -114,9 +114,12 @@ class Device {
            Timing* timing = nullptr);
   /// Until the device has nothing to do.
   void waitIdle() const;
-  /// Frame numbers for the library: the frame that `run` records now, or would record next, and the
-  /// last one that finished.
-  FrameInfo frame() const;
+  /// The frame that `run` records now, or would record next; the one below it has completed. For
+  /// advanceFrame.
+  uint64_t frame() const;
+  /// Counts that frame as completed without commands, and returns the next one's number: after it, an
+  /// advanceFrame frees what was destroyed before.
+  uint64_t skipFrame();
 
   HostBuffer createHostBuffer(VkDeviceSize size, VkBufferUsageFlags usage, std::string* error);
   Image createImage(VkExtent2D extent, VkFormat format, VkImageUsageFlags usage, uint32_t levels,
