@@ -1,7 +1,7 @@
 #include <new>
 
 #include "atmosphere/api/context_impl.h"
-#include "engine/requirements.h"
+#include "atmosphere/api/device_desc.h"
 
 namespace alpenglow {
 inline namespace v1 {
@@ -60,8 +60,8 @@ Status queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstan
                     "among " ALPENGLOW_CAPABILITY_NAMES ".");
   }
   *out = requirementsOf(wanted == 0 ? kDefaultCapabilities : wanted);
-  return engine::checkPhysicalDevice(getInstanceProcAddr, instance, physicalDevice, *out,
-                                     diagnostic, user);
+  return engine::checkPhysicalDevice(getInstanceProcAddr, instance, physicalDevice,
+                                     featureSet(*out), diagnostic, user);
 }
 
 Status createContext(const ContextDesc& desc, Context** out) {
@@ -85,8 +85,7 @@ Status createContext(const ContextDesc& desc, Context** out) {
   Requirements needed = requirementsOf(context->capabilities);
   // A host may draw in render passes: createView asks. Shafts have scopes of their own.
   needed.dynamicRendering = (context->capabilities & kCapabilityShafts) != 0;
-  Status status = engine::checkEnabled(needed, desc.enabled, desc.diagnostic, desc.user);
-  if (status == Status::Ok) status = engine::Device::create(desc, &context->device);
+  Status status = createDevice(desc, needed, &context->device);
   if (status == Status::Ok) status = bake::Resources::create(*context->device, &context->bake);
   if (status == Status::Ok && (context->capabilities & kCapabilityBake) != 0)
     status = sky::ProbePass::create(*context->bake, &context->probe);
@@ -120,7 +119,7 @@ void collect(Context* context, uint64_t completed) {
 }
 
 void resourceReport(const Context* context, ResourceReport* out) {
-  if (context != nullptr && out != nullptr) *out = context->device->counters().report();
+  if (context != nullptr && out != nullptr) *out = resourceReportOf(context->device->counters());
 }
 
 Status requireCapability(const Context& context, CapabilityFlags capability, const char* call) {

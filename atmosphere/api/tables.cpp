@@ -3,9 +3,9 @@
 #include <alpenglow/tables.h>
 
 #include "atmosphere/api/context_impl.h"
+#include "atmosphere/api/solver_plan.h"
 #include "atmosphere/model/query.h"
 #include "atmosphere/model/solvers.h"
-#include "atmosphere/models/model_plan.h"
 
 namespace alpenglow {
 inline namespace v1 {
@@ -20,14 +20,6 @@ Status checkFrame(const Tables& tables, const FrameInfo& frame, const char* call
                                           "the last completed one; count from 1.",
                                           call, static_cast<unsigned long long>(frame.submitting),
                                           static_cast<unsigned long long>(frame.completed));
-}
-
-Tables::MakePlan planOf(Solver solver) {
-  if (solver == Solver::Standard) return bake::standardPlan;
-  if (solver != Solver::Moments) return models::modelPlan;
-  return [](const Parameters& parameters, const TableDesc& desc, TableFormat) {
-    return bake::momentPlan(parameters, desc);
-  };
 }
 
 }  // namespace
@@ -60,7 +52,7 @@ Status createTables(Context* context, const Parameters& parameters, const TableD
                                  "without kCapabilityBake.",
                                  solverEnumerator(full.solver));
   }
-  return Tables::create(*context->bake, simulated, full, planOf(full.solver), bakes, out);
+  return Tables::create(*context->bake, simulated, full, solverPlan, bakes, out);
 }
 
 void destroyTables(Tables* tables, const FrameInfo& frame) { Tables::destroy(tables, frame); }
