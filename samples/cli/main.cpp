@@ -9,7 +9,7 @@
 
 #include "commands.h"
 #include "failure.h"
-#include "terrain/gpu.h"
+#include "common/gpu.h"
 
 namespace alpenglow::cli {
 namespace {
