@@ -7,13 +7,13 @@
 
 namespace alpenglow::bake {
 
-inline constexpr uint32_t MomentSettings::* kMomentMembers[] = {
-    &MomentSettings::depthMu,     &MomentSettings::depthH,       &MomentSettings::nodesR,
-    &MomentSettings::nodesMuS,    &MomentSettings::ringsSky,     &MomentSettings::ringsLimb,
-    &MomentSettings::ringsGround, &MomentSettings::azimuths,     &MomentSettings::degree,
-    &MomentSettings::sourceGamma, &MomentSettings::sourcePsi,    &MomentSettings::solverPanels,
+inline constexpr uint32_t MomentSettings::*kMomentMembers[] = {
+    &MomentSettings::depthMu,     &MomentSettings::depthH,    &MomentSettings::nodesR,
+    &MomentSettings::nodesMuS,    &MomentSettings::ringsSky,  &MomentSettings::ringsLimb,
+    &MomentSettings::ringsGround, &MomentSettings::azimuths,  &MomentSettings::degree,
+    &MomentSettings::sourceGamma, &MomentSettings::sourcePsi, &MomentSettings::solverPanels,
     &MomentSettings::viewPanels};
-inline constexpr uint32_t TableSizes::* kSizeMembers[] = {
+inline constexpr uint32_t TableSizes::*kSizeMembers[] = {
     &TableSizes::transmittanceMu, &TableSizes::transmittanceR, &TableSizes::irradianceMuS,
     &TableSizes::irradianceR,     &TableSizes::scatteringR,    &TableSizes::scatteringMu,
     &TableSizes::scatteringMuS,   &TableSizes::scatteringNu};

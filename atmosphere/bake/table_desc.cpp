@@ -30,7 +30,7 @@ Status checkRanges(const engine::Device& device, const char* what, const Size (&
 }
 
 template <typename Counts, size_t N>
-bool anyGiven(const Counts& counts, uint32_t Counts::* const (&members)[N]) {
+bool anyGiven(const Counts& counts, uint32_t Counts::*const (&members)[N]) {
   for (const auto member : members)
     if (counts.*member != 0) return true;
   return false;
@@ -57,16 +57,15 @@ Status checkCombination(const engine::Device& device, const TableDesc& desc) {
   const struct {
     bool given, allowed;
     const char* name;
-  } choices[] = {
-      {desc.quality != Quality::Default, moments, "a Quality"},
-      {anyGiven(desc.moments, kMomentMembers), moments, "MomentSettings"},
-      {!allSuns(desc), moments, "a range of suns"},
-      {desc.mie == MieStorage::Packed, !moments && !model, "MieStorage::Packed"},
-      {anyGiven(desc.sizes, kSizeMembers), !moments && !model, "TableSizes"},
-      {desc.orders != 0, !model, "orders"},
-      {desc.keepOrders, !model, "keepOrders"},
-      {desc.without != 0, moments, "TableDesc::without"},
-      {desc.samples != 0, defaultSamples(desc.solver) != 0, "samples"}};
+  } choices[] = {{desc.quality != Quality::Default, moments, "a Quality"},
+                 {anyGiven(desc.moments, kMomentMembers), moments, "MomentSettings"},
+                 {!allSuns(desc), moments, "a range of suns"},
+                 {desc.mie == MieStorage::Packed, !moments && !model, "MieStorage::Packed"},
+                 {anyGiven(desc.sizes, kSizeMembers), !moments && !model, "TableSizes"},
+                 {desc.orders != 0, !model, "orders"},
+                 {desc.keepOrders, !model, "keepOrders"},
+                 {desc.without != 0, moments, "TableDesc::without"},
+                 {desc.samples != 0, defaultSamples(desc.solver) != 0, "samples"}};
   for (const auto& choice : choices) {
     if (!choice.given || choice.allowed) continue;
     return device.fail(Status::InvalidArgument, VK_SUCCESS,

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "commands.h"
-#include "failure.h"
 #include "common/gpu.h"
+#include "failure.h"
 
 namespace alpenglow::cli {
 namespace {

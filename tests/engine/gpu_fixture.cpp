@@ -9,7 +9,8 @@ using namespace engine;
 void GpuTest::SetUp() {
   DeviceTest::SetUp();
   ASSERT_FALSE(HasFatalFailure());
-  ASSERT_EQ(engine::Device::create(deviceDesc(contextDesc()), &engineDevice_), Status::Ok) << lastDiagnostic();
+  ASSERT_EQ(engine::Device::create(deviceDesc(contextDesc()), &engineDevice_), Status::Ok)
+      << lastDiagnostic();
 }
 
 void GpuTest::TearDown() {
