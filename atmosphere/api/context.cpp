@@ -86,7 +86,8 @@ Status createContext(const ContextDesc& desc, Context** out) {
   // A host may draw in render passes: createView asks. Shafts have scopes of their own.
   needed.dynamicRendering = (context->capabilities & kCapabilityShafts) != 0;
   Status status = createDevice(desc, needed, &context->device);
-  if (status == Status::Ok) status = bake::Resources::create(*context->device, &context->bake);
+  if (status == Status::Ok)
+    status = bake::Resources::create(*context->device, context->live, &context->bake);
   if (status == Status::Ok && (context->capabilities & kCapabilityBake) != 0)
     status = sky::ProbePass::create(*context->bake, &context->probe);
   if (status != Status::Ok) {
@@ -99,14 +100,12 @@ Status createContext(const ContextDesc& desc, Context** out) {
 
 void destroyContext(Context* context) {
   if (context == nullptr) return;
-  if (context->bake != nullptr) {
-    const uint32_t tables = context->bake->liveTables, views = context->bake->liveViews;
-    if (tables != 0 || views != 0) {
-      context->device->notice(Severity::Warning,
-                              "The context is destroyed before %u Tables and %u View objects of "
-                              "it, but must be the last: what they hold is lost.",
-                              tables, views);
-    }
+  const uint32_t tables = context->live.tables, views = context->live.views;
+  if (tables != 0 || views != 0) {
+    context->device->notice(Severity::Warning,
+                            "The context is destroyed before %u Tables and %u View objects of "
+                            "it, but must be the last: what they hold is lost.",
+                            tables, views);
   }
   sky::ProbePass::destroy(context->probe);
   bake::Resources::destroy(context->bake);

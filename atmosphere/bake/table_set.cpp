@@ -10,7 +10,7 @@ Tables::Tables(bake::Resources& resources, const Parameters& parameters, const T
                bool bakes)
     : resources_(resources),
       device_(resources.device()),
-      id_(++resources.tablesMade),
+      id_(++resources.live().tablesMade),
       parameters_(parameters),
       desc_(desc),
       bakes_(bakes) {}
@@ -23,7 +23,7 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
   if (tables == nullptr) {
     return device.fail(Status::OutOfHostMemory, VK_SUCCESS, "Tables found no host memory.");
   }
-  ++resources.liveTables;
+  ++resources.live().tables;
   Status status = Status::Ok;
   try {
     tables->plan_ = plan(parameters, desc, bake::finestFormat(device, desc.format));
@@ -48,7 +48,7 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
 
 void Tables::destroy(Tables* tables, const FrameInfo& frame) {
   if (tables == nullptr) return;
-  --tables->resources_.liveTables;
+  --tables->resources_.live().tables;
   engine::Device& device = tables->device_;
   device.deletions().defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
                            engine::handleNumber(tables->pool_));
