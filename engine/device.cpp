@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <new>
 
-#include "engine/requirements.h"
 #include "engine/structure.h"
 
 namespace alpenglow::engine {
@@ -15,9 +14,9 @@ namespace {
 constexpr size_t kMessageSize = 1024;
 
 /// Reports for a device that doesn't exist yet.
-Status refuse(const ContextDesc& desc, Status status, const char* format, ...)
+Status refuse(const DeviceDesc& desc, Status status, const char* format, ...)
     ALPENGLOW_PRINTF(3, 4);
-Status refuse(const ContextDesc& desc, Status status, const char* format, ...) {
+Status refuse(const DeviceDesc& desc, Status status, const char* format, ...) {
   char message[kMessageSize];
   va_list arguments;
   va_start(arguments, format);
@@ -29,52 +28,51 @@ Status refuse(const ContextDesc& desc, Status status, const char* format, ...) {
   return status;
 }
 
-Status checkHandles(const ContextDesc& desc) {
+Status checkHandles(const DeviceDesc& desc) {
   const char* missing = nullptr;
   if (desc.getInstanceProcAddr == nullptr) missing = "getInstanceProcAddr";
   if (desc.device == VK_NULL_HANDLE) missing = "device";
   if (desc.physicalDevice == VK_NULL_HANDLE) missing = "physicalDevice";
   if (desc.instance == VK_NULL_HANDLE) missing = "instance";
   if (missing != nullptr) {
-    return refuse(desc, Status::InvalidArgument,
-                  "ContextDesc::%s is null, but the host's own is expected.", missing);
+    return refuse(desc, Status::InvalidArgument, "%s::%s is null, but the host's own is expected.",
+                  desc.name, missing);
   }
   return Status::Ok;
 }
 
-Status checkQueueFamilies(const ContextDesc& desc) {
+Status checkQueueFamilies(const DeviceDesc& desc) {
   if (desc.queueFamilyCount > 0 && desc.queueFamilies == nullptr) {
     return refuse(desc, Status::InvalidArgument,
-                  "ContextDesc::queueFamilies is null, but queueFamilyCount is %u.",
+                  "%s::queueFamilies is null, but queueFamilyCount is %u.", desc.name,
                   desc.queueFamilyCount);
   }
   for (uint32_t i = 0; i < desc.queueFamilyCount; ++i) {
     for (uint32_t j = 0; j < i; ++j) {
       if (desc.queueFamilies[i] == desc.queueFamilies[j]) {
         return refuse(desc, Status::InvalidArgument,
-                      "ContextDesc::queueFamilies names family %u twice, but each one is expected "
-                      "once.",
-                      desc.queueFamilies[i]);
+                      "%s::queueFamilies names family %u twice, but each one is expected once.",
+                      desc.name, desc.queueFamilies[i]);
       }
     }
   }
   return Status::Ok;
 }
 
-Status checkDesc(const ContextDesc& desc) {
+Status checkDesc(const DeviceDesc& desc) {
   if (Status status = checkHandles(desc); status != Status::Ok) return status;
   if (Status status = checkQueueFamilies(desc); status != Status::Ok) return status;
   if (desc.memory != nullptr &&
       (desc.memory->allocate == nullptr || desc.memory->free == nullptr)) {
     return refuse(desc, Status::InvalidArgument,
-                  "ContextDesc::memory lacks its function %s, but both allocate and free are "
-                  "expected.",
-                  desc.memory->allocate == nullptr ? "allocate" : "free");
+                  "%s::memory lacks its function %s, but both allocate and free are expected.",
+                  desc.name, desc.memory->allocate == nullptr ? "allocate" : "free");
   }
-  Requirements needed;
+  FeatureSet needed;
   needed.apiVersion = VK_API_VERSION_1_3;
   needed.synchronization2 = true;
-  return checkEnabled(needed, desc.enabled, desc.diagnostic, desc.user);
+  mergeFeatures(desc.needed, &needed);
+  return checkEnabled(needed, desc.enabled, desc.name, desc.diagnostic, desc.user);
 }
 
 }  // namespace
@@ -86,20 +84,7 @@ void Counters::addBytes(uint64_t count) {
   }
 }
 
-ResourceReport Counters::report() const {
-  ResourceReport result;
-  result.pipelines = pipelines;
-  result.shaderVariants = shaderVariants;
-  result.images = images;
-  result.buffers = buffers;
-  result.bytes = bytes;
-  result.peakBytes = peakBytes;
-  result.dispatches = dispatches;
-  result.draws = draws;
-  return result;
-}
-
-Status Device::create(const ContextDesc& desc, Device** out) {
+Status Device::create(const DeviceDesc& desc, Device** out) {
   *out = nullptr;
   if (Status status = checkDesc(desc); status != Status::Ok) return status;
   Dispatch table;
@@ -112,7 +97,7 @@ Status Device::create(const ContextDesc& desc, Device** out) {
   return create(desc, table, out);
 }
 
-Status Device::create(const ContextDesc& desc, const Dispatch& table, Device** out) {
+Status Device::create(const DeviceDesc& desc, const Dispatch& table, Device** out) {
   *out = nullptr;
   if (Status status = checkDesc(desc); status != Status::Ok) return status;
   VkPhysicalDeviceProperties properties = {};
@@ -131,11 +116,11 @@ Status Device::create(const ContextDesc& desc, const Dispatch& table, Device** o
   return Status::Ok;
 }
 
-Device::Device(const ContextDesc& desc, const Dispatch& table)
+Device::Device(const DeviceDesc& desc, const Dispatch& table)
     : desc_(desc), vk_(table), deletions_(*this) {
   if (desc.memory != nullptr) hooks_ = *desc.memory;
   queueFamilies_.assign(desc.queueFamilies, desc.queueFamilies + desc.queueFamilyCount);
-  if (desc.shaders != nullptr) shaderHook_ = *desc.shaders;
+  if (desc.shaders != nullptr) shaderReplacement_ = *desc.shaders;
   // They point at the host's memory, which needn't outlive the call.
   desc_.shaders = nullptr;
   desc_.memory = nullptr;
@@ -147,12 +132,13 @@ Device::Device(const ContextDesc& desc, const Dispatch& table)
 void Device::destroy(Device* device) {
   if (device == nullptr) return;
   device->deletions_.destroyAll();
-  const ResourceReport left = device->counters_.report();
-  if (left.images != 0 || left.buffers != 0 || left.bytes != 0) {
+  const uint64_t images = device->counters_.images, buffers = device->counters_.buffers;
+  const uint64_t bytes = device->counters_.bytes;
+  if (images != 0 || buffers != 0 || bytes != 0) {
     device->notice(Severity::Warning,
                    "The context is destroyed while %" PRIu64 " images, %" PRIu64
                    " buffers and %" PRIu64 " bytes of it are still alive.",
-                   left.images, left.buffers, left.bytes);
+                   images, buffers, bytes);
   }
   delete device;
 }

@@ -2,9 +2,10 @@
 // report an error, counters, and the queue of deferred destruction.
 #pragma once
 
-#include <alpenglow/context.h>
+#include <alpenglow/types.h>
 
 #include <atomic>
+#include <cstddef>
 #include <mutex>
 #include <type_traits>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "engine/deletion_queue.h"
 #include "engine/dispatch.h"
 #include "engine/frames.h"
+#include "engine/requirements.h"
 #include "engine/result.h"
 
 #if defined(__GNUC__)
@@ -42,8 +44,36 @@ Handle handleFrom(uint64_t number) {
   }
 }
 
-/// The figures of ResourceReport. The engine counts all but dispatches and draws, which the
-/// recording rooms add themselves. Thread-safe.
+/// Lets SPIR-V of the host's own take the place of a shader: asked, by the shader's name, for each
+/// one of each pipeline that is made. True: `code`, `bytes` long, is used instead; it must live
+/// until the pipeline is made.
+struct ShaderReplacement {
+  void* user = nullptr;
+  bool (*replace)(void* user, const char* name, const uint32_t** code, size_t* bytes) = nullptr;
+};
+
+/// The host's device. Everything is the host's and outlives the Device; zero means none.
+struct DeviceDesc {
+  const char* name = "DeviceDesc";  ///< What the host calls this: for sentences. A literal.
+  VkInstance instance = VK_NULL_HANDLE;
+  VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
+  VkDevice device = VK_NULL_HANDLE;
+  PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
+  FeatureSet needed;   ///< Besides Vulkan 1.3 and synchronization2, which the engine needs itself.
+  FeatureSet enabled;  ///< What the host really enabled.
+  const uint32_t* queueFamilies = nullptr;  ///< Families that will touch our images. Copied.
+  uint32_t queueFamilyCount = 0;
+  VkPipelineCache pipelineCache = VK_NULL_HANDLE;
+  const VkAllocationCallbacks* allocator = nullptr;
+  const MemoryHooks* memory = nullptr;         ///< Copied.
+  const ShaderReplacement* shaders = nullptr;  ///< Copied.
+  DiagnosticFn diagnostic = nullptr;
+  void* user = nullptr;
+  bool debugNames = false;  ///< The host enabled VK_EXT_debug_utils on the instance.
+};
+
+/// What was made and recorded on a device. The engine counts all but dispatches and draws, which
+/// the recording rooms add themselves. Thread-safe.
 struct Counters {
   std::atomic<uint64_t> pipelines{0};
   std::atomic<uint64_t> shaderVariants{0};
@@ -56,7 +86,6 @@ struct Counters {
 
   void addBytes(uint64_t count);  ///< Raises peakBytes too.
   void removeBytes(uint64_t count) { bytes -= count; }
-  ResourceReport report() const;
 };
 
 /// The host's device as we see it. Everything here is thread-safe. Made on the heap with the host's
@@ -65,11 +94,11 @@ class Device {
  public:
   /// Checks the description and fills the table. On failure `*out` is null and the description's
   /// diagnostic has a sentence: InvalidArgument for a null handle or an impossible count,
-  /// Unsupported for a device below Vulkan 1.3, without synchronization2 or without a function that
-  /// we need, OutOfHostMemory.
-  static Status create(const ContextDesc& desc, Device** out);
+  /// Unsupported for a device made without what is needed, below Vulkan 1.3 or without a function
+  /// that we need, OutOfHostMemory.
+  static Status create(const DeviceDesc& desc, Device** out);
   /// The same with a table that is already filled; for tests.
-  static Status create(const ContextDesc& desc, const Dispatch& table, Device** out);
+  static Status create(const DeviceDesc& desc, const Dispatch& table, Device** out);
   /// Destroys what still waits, whatever its frame, and reports images, buffers and bytes that
   /// nobody released as a Warning. Null is ignored.
   static void destroy(Device* device);
@@ -82,9 +111,11 @@ class Device {
   VkDevice handle() const { return desc_.device; }
   const VkAllocationCallbacks* allocator() const { return desc_.allocator; }
   VkPipelineCache pipelineCache() const { return desc_.pipelineCache; }
-  const Requirements& enabled() const { return desc_.enabled; }
+  const FeatureSet& enabled() const { return desc_.enabled; }
   const MemoryHooks* memoryHooks() const { return hooks_.allocate != nullptr ? &hooks_ : nullptr; }
-  const ShaderHook& shaderHook() const { return shaderHook_; }
+  const ShaderReplacement& shaderReplacement() const { return shaderReplacement_; }
+  /// What the host calls the description of this device.
+  const char* descName() const { return desc_.name; }
   /// The families that share our images and buffers; more than one means concurrent.
   const std::vector<uint32_t>& queueFamilies() const { return queueFamilies_; }
   VkSharingMode sharingMode() const {
@@ -131,14 +162,14 @@ class Device {
   void countPipeline(uint64_t variantKey);
 
  private:
-  Device(const ContextDesc& desc, const Dispatch& table);
+  Device(const DeviceDesc& desc, const Dispatch& table);
   ~Device() = default;
   void report(Severity severity, Status status, VkResult result, const char* message) const;
 
-  ContextDesc desc_;
+  DeviceDesc desc_;
   Dispatch vk_;
   MemoryHooks hooks_;
-  ShaderHook shaderHook_;
+  ShaderReplacement shaderReplacement_;
   std::vector<uint32_t> queueFamilies_;
   VkPhysicalDeviceProperties properties_ = {};
   VkPhysicalDeviceMemoryProperties memoryProperties_ = {};

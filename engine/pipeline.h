@@ -23,7 +23,7 @@ struct Shader {
   const char* name = "";
 };
 
-/// The host's code in place of `own` (ContextDesc::shaders), if it gives any, else `own`.
+/// The host's code in place of `own` (DeviceDesc::shaders), if it gives any, else `own`.
 /// InvalidArgument for code that doesn't fit in its place. What the calls below do with each of
 /// their shaders; for caches, whose keys need the code that is used.
 Status chooseShader(const Device& device, const Shader& own, Shader* out);

@@ -61,7 +61,7 @@ class GapList {
   int count_ = 0;
 };
 
-GapList listGaps(const Requirements& needed, const Requirements& offered) {
+GapList listGaps(const FeatureSet& needed, const FeatureSet& offered) {
   GapList gaps;
   if (offered.apiVersion < needed.apiVersion) {
     char version[64];
@@ -74,8 +74,7 @@ GapList listGaps(const Requirements& needed, const Requirements& offered) {
   if (needed.synchronization2 && !offered.synchronization2) gaps.add("synchronization2");
   if (needed.dynamicRendering && !offered.dynamicRendering) gaps.add("dynamicRendering");
   for (const Feature& feature : kFeatures) {
-    if (needed.features.*feature.member != VK_FALSE &&
-        offered.features.*feature.member == VK_FALSE) {
+    if (needed.core.*feature.member != VK_FALSE && offered.core.*feature.member == VK_FALSE) {
       gaps.add(feature.name);
     }
   }
@@ -91,26 +90,26 @@ Status report(DiagnosticFn diagnostic, void* user, Status status, const char* be
 }
 
 /// What the device has; the newer features are asked for only where it knows their struct.
-Requirements offeredBy(PFN_vkGetPhysicalDeviceFeatures2 getFeatures2,
-                       VkPhysicalDevice physicalDevice, uint32_t apiVersion) {
+FeatureSet offeredBy(PFN_vkGetPhysicalDeviceFeatures2 getFeatures2, VkPhysicalDevice physicalDevice,
+                     uint32_t apiVersion) {
   auto features13 = structure<VkPhysicalDeviceVulkan13Features>(
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
   auto features =
       structure<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
   if (apiVersion >= VK_API_VERSION_1_3) features.pNext = &features13;
   getFeatures2(physicalDevice, &features);
-  Requirements offered;
+  FeatureSet offered;
   offered.apiVersion = apiVersion;
   offered.synchronization2 = features13.synchronization2 != VK_FALSE;
   offered.dynamicRendering = features13.dynamicRendering != VK_FALSE;
-  offered.features = features.features;
+  offered.core = features.features;
   return offered;
 }
 
 }  // namespace
 
 Status checkPhysicalDevice(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
-                           VkPhysicalDevice physicalDevice, const Requirements& needed,
+                           VkPhysicalDevice physicalDevice, const FeatureSet& needed,
                            DiagnosticFn diagnostic, void* user) {
   const char* null = nullptr;
   if (physicalDevice == VK_NULL_HANDLE) null = "physicalDevice";
@@ -132,27 +131,27 @@ Status checkPhysicalDevice(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInst
   }
   VkPhysicalDeviceProperties properties = {};
   getProperties(physicalDevice, &properties);
-  const Requirements offered = offeredBy(getFeatures2, physicalDevice, properties.apiVersion);
+  const FeatureSet offered = offeredBy(getFeatures2, physicalDevice, properties.apiVersion);
   const GapList gaps = listGaps(needed, offered);
   if (gaps.empty()) return Status::Ok;
   return report(diagnostic, user, Status::Unsupported, "The device \"", properties.deviceName,
                 "\" lacks what is needed: ", gaps.text());
 }
 
-Status checkEnabled(const Requirements& needed, const Requirements& enabled,
+Status checkEnabled(const FeatureSet& needed, const FeatureSet& enabled, const char* owner,
                     DiagnosticFn diagnostic, void* user) {
   const GapList gaps = listGaps(needed, enabled);
   if (gaps.empty()) return Status::Ok;
-  return report(diagnostic, user, Status::Unsupported, "ContextDesc::enabled", "",
-                " says that the device was made without what is needed: ", gaps.text());
+  return report(diagnostic, user, Status::Unsupported, "", owner,
+                "::enabled says that the device was made without what is needed: ", gaps.text());
 }
 
-void mergeRequirements(const Requirements& more, Requirements* needed) {
+void mergeFeatures(const FeatureSet& more, FeatureSet* needed) {
   if (more.apiVersion > needed->apiVersion) needed->apiVersion = more.apiVersion;
   needed->synchronization2 |= more.synchronization2;
   needed->dynamicRendering |= more.dynamicRendering;
   for (const Feature& feature : kFeatures) {
-    if (more.features.*feature.member != VK_FALSE) needed->features.*feature.member = VK_TRUE;
+    if (more.core.*feature.member != VK_FALSE) needed->core.*feature.member = VK_TRUE;
   }
 }
 

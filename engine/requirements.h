@@ -1,22 +1,31 @@
 // Comparing what the library needs with what a physical device offers or a host has enabled.
 #pragma once
 
-#include <alpenglow/context.h>
+#include <alpenglow/types.h>
 
 namespace alpenglow::engine {
+
+/// What a device must offer, does offer, or was made with.
+struct FeatureSet {
+  uint32_t apiVersion = 0;  ///< Of the device, and of the instance's VkApplicationInfo.
+  bool synchronization2 = false;
+  bool dynamicRendering = false;
+  VkPhysicalDeviceFeatures core = {};
+};
 
 /// Asks the physical device. Ok when it offers all of `needed`; else Unsupported, and `diagnostic`
 /// (may be null) gets one sentence that names the device and lists every gap. InvalidArgument for
 /// null handles. Thread-safe; the instance must be of Vulkan 1.1 or later.
 Status checkPhysicalDevice(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
-                           VkPhysicalDevice physicalDevice, const Requirements& needed,
+                           VkPhysicalDevice physicalDevice, const FeatureSet& needed,
                            DiagnosticFn diagnostic, void* user);
 
-/// Compares with what the host says it enabled (ContextDesc::enabled), in the same way.
-Status checkEnabled(const Requirements& needed, const Requirements& enabled,
+/// Compares with what the host says it enabled, in the same way. `owner` is what the host calls the
+/// description whose member `enabled` that is.
+Status checkEnabled(const FeatureSet& needed, const FeatureSet& enabled, const char* owner,
                     DiagnosticFn diagnostic, void* user);
 
 /// Adds what `more` needs to `needed`.
-void mergeRequirements(const Requirements& more, Requirements* needed);
+void mergeFeatures(const FeatureSet& more, FeatureSet* needed);
 
 }  // namespace alpenglow::engine

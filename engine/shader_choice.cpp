@@ -10,9 +10,9 @@ namespace {
 Status refuse(const Device& device, const Shader& shader, const char* what) {
   return device.fail(
       Status::InvalidArgument, VK_SUCCESS,
-      "The host's code for shader \"%s\" (ContextDesc::shaders) has %s, but a module "
-      "that fits where the library's own does is expected.",
-      shader.name, what);
+      "The host's code for shader \"%s\" (%s::shaders) has %s, but a module that fits where the "
+      "library's own does is expected.",
+      shader.name, device.descName(), what);
 }
 
 const SpirvResource* find(const SpirvInterface& interface, const SpirvResource& wanted) {
@@ -39,9 +39,10 @@ Status compare(const Device& device, const Shader& shader, const SpirvInterface&
   for (const SpirvResource& resource : given.resources) {
     if (find(own, resource) != nullptr) continue;
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "The host's code for shader \"%s\" (ContextDesc::shaders) declares %s at "
-                       "set %u, binding %u, where the library's own has no such thing.",
-                       shader.name, kindName(resource.kind), resource.set, resource.binding);
+                       "The host's code for shader \"%s\" (%s::shaders) declares %s at set %u, "
+                       "binding %u, where the library's own has no such thing.",
+                       shader.name, device.descName(), kindName(resource.kind), resource.set,
+                       resource.binding);
   }
   return Status::Ok;
 }
@@ -50,7 +51,7 @@ Status compare(const Device& device, const Shader& shader, const SpirvInterface&
 
 Status chooseShader(const Device& device, const Shader& own, Shader* out) try {
   *out = own;
-  const ShaderHook& hook = device.shaderHook();
+  const ShaderReplacement& hook = device.shaderReplacement();
   if (hook.replace == nullptr || own.code == nullptr) return Status::Ok;
   Shader given = own;
   if (!hook.replace(hook.user, own.name, &given.code, &given.bytes)) return Status::Ok;

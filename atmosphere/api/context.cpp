@@ -2,7 +2,7 @@
 #include <new>
 
 #include "atmosphere/api/context_impl.h"
-#include "engine/requirements.h"
+#include "atmosphere/api/device_desc.h"
 
 namespace alpenglow {
 inline namespace v1 {
@@ -61,8 +61,8 @@ Status queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstan
                     "among " ALPENGLOW_CAPABILITY_NAMES ".");
   }
   *out = requirementsOf(wanted == 0 ? kDefaultCapabilities : wanted);
-  return engine::checkPhysicalDevice(getInstanceProcAddr, instance, physicalDevice, *out,
-                                     diagnostic, user);
+  return engine::checkPhysicalDevice(getInstanceProcAddr, instance, physicalDevice,
+                                     featureSet(*out), diagnostic, user);
 }
 
 Status createContext(const ContextDesc& desc, Context** out) {
@@ -86,9 +86,9 @@ Status createContext(const ContextDesc& desc, Context** out) {
   Requirements needed = requirementsOf(context->capabilities);
   // A host may draw in render passes: createView asks. Shafts have scopes of their own.
   needed.dynamicRendering = (context->capabilities & kCapabilityShafts) != 0;
-  Status status = engine::checkEnabled(needed, desc.enabled, desc.diagnostic, desc.user);
-  if (status == Status::Ok) status = engine::Device::create(desc, &context->device);
-  if (status == Status::Ok) status = bake::Resources::create(*context->device, &context->bake);
+  Status status = createDevice(desc, needed, &context->device);
+  if (status == Status::Ok)
+    status = bake::Resources::create(*context->device, context->live, &context->bake);
   if (status == Status::Ok && (context->capabilities & kCapabilityBake) != 0)
     status = sky::ProbePass::create(*context->bake, &context->probe);
   if (status != Status::Ok) {
@@ -141,7 +141,7 @@ Status abandonFrame(Context* context, uint64_t frame) {
 }
 
 void resourceReport(const Context* context, ResourceReport* out) {
-  if (context != nullptr && out != nullptr) *out = context->device->counters().report();
+  if (context != nullptr && out != nullptr) *out = resourceReportOf(context->device->counters());
 }
 
 Status requireCapability(const Context& context, CapabilityFlags capability, const char* call) {

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <new>
 #include <string_view>
 
+#include "atmosphere/api/solver_plan.h"
 #include "atmosphere/bake/moment_shape.h"
-#include "atmosphere/bake/plan.h"
 #include "atmosphere/bake/table_set.h"
 #include "atmosphere/model/solvers.h"
-#include "atmosphere/models/model_plan.h"
 #include "atmosphere/plan/rules.h"
 #include "atmosphere/sky/parts.h"
 #include "atmosphere/sky/view_cost.h"
@@ -26,11 +26,12 @@ constexpr double kSecondsPerUnit = 2.3e-9;
 constexpr uint32_t kSunMapSize = 2048;
 
 bake::SolverPlan tablePlan(const Parameters& parameters, const TableDesc& completed) {
-  if (isModel(completed.solver))
-    return models::modelPlan(parameters, completed, TableFormat::Float);
-  return completed.solver == Solver::Moments
-             ? bake::momentPlan(parameters, completed)
-             : bake::standardPlan(parameters, completed, TableFormat::Float);
+  return solverPlan(parameters, completed, TableFormat::Float);
+}
+
+PlanCost tableCost(const bake::SolverPlan& plan) {
+  const bake::TableCost c = bake::costOf(plan);
+  return {c.bytes, c.bakeBytes, c.texels, c.images, c.pipelines, c.dispatches, c.units};
 }
 
 ViewDesc viewOf(const Plan& plan) {
@@ -42,19 +43,19 @@ ViewDesc viewOf(const Plan& plan) {
 
 bool sliced(const Plan& plan) { return plan.skySlice && hasSkySlice(plan.tableDesc.solver); }
 
+constexpr uint64_t PlanCost::*kCosts[] = {
+    &PlanCost::bytes,     &PlanCost::bakeBytes,  &PlanCost::texels, &PlanCost::images,
+    &PlanCost::pipelines, &PlanCost::dispatches, &PlanCost::units};
+static_assert(sizeof(PlanCost) == std::size(kCosts) * sizeof(uint64_t));
+
 void add(PlanCost* to, const PlanCost& more) {
-  uint64_t* sum = &to->bytes;
-  const uint64_t* from = &more.bytes;
-  static_assert(sizeof(PlanCost) % sizeof(uint64_t) == 0);
-  for (size_t i = 0; i < sizeof(PlanCost) / sizeof(uint64_t); ++i) sum[i] += from[i];
+  for (const auto cost : kCosts) to->*cost += more.*cost;
 }
 
 PlanCost difference(const PlanCost& more, const PlanCost& less) {
   PlanCost result;
-  uint64_t* out = &result.bytes;
-  const uint64_t *a = &more.bytes, *b = &less.bytes;
-  for (size_t i = 0; i < sizeof(PlanCost) / sizeof(uint64_t); ++i)
-    out[i] = a[i] > b[i] ? a[i] - b[i] : 0;
+  for (const auto cost : kCosts)
+    result.*cost = more.*cost > less.*cost ? more.*cost - less.*cost : 0;
   return result;
 }
 
@@ -75,7 +76,7 @@ PlanCost costOf(const Parameters& parameters, const Plan& plan) {
   PlanCost cost;
   const Parameters air = bake::simulated(parameters, plan.tableDesc.without);
   const TableDesc full = bake::completed(air, plan.tableDesc);
-  cost = bake::costOf(tablePlan(air, full));
+  cost = tableCost(tablePlan(air, full));
   add(&cost, sky::viewCost(full, viewOf(plan), sliced(plan), plan.sceneDepth));
   add(&cost, shaftCost(plan));
   return cost;

@@ -3,24 +3,12 @@
 #include <alpenglow/tables.h>
 
 #include "atmosphere/api/context_impl.h"
+#include "atmosphere/api/solver_plan.h"
 #include "atmosphere/model/query.h"
 #include "atmosphere/model/solvers.h"
-#include "atmosphere/models/model_plan.h"
 
 namespace alpenglow {
 inline namespace v1 {
-namespace {
-
-Tables::MakePlan planOf(Solver solver) {
-  if (solver == Solver::Standard) return bake::standardPlan;
-  if (solver != Solver::Moments) return models::modelPlan;
-  return [](const Parameters& parameters, const TableDesc& desc, TableFormat) {
-    return bake::momentPlan(parameters, desc);
-  };
-}
-
-}  // namespace
-
 Status nullArgument(const Tables* tables, const char* call) {
   if (tables == nullptr) return Status::InvalidArgument;
   return tables->resources().device().fail(Status::InvalidArgument, VK_SUCCESS,
@@ -49,7 +37,7 @@ Status createTables(Context* context, const Parameters& parameters, const TableD
                                  "without kCapabilityBake.",
                                  solverEnumerator(full.solver));
   }
-  return Tables::create(*context->bake, simulated, full, planOf(full.solver), bakes, out);
+  return Tables::create(*context->bake, simulated, full, solverPlan, bakes, out);
 }
 
 void destroyTables(Tables* tables) {

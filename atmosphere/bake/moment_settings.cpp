@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "atmosphere/bake/desc_members.h"
 #include "atmosphere/bake/moment_shape.h"
 
 namespace alpenglow {
@@ -104,10 +105,8 @@ MomentSettings momentSettings(const Parameters& parameters, Quality quality,
   result.nodesMuS += peak.nodesMuS;
   result.solverPanels += panels;
   result.viewPanels += panels;
-  const uint32_t* given = &custom.depthMu;
-  uint32_t* out = &result.depthMu;
-  for (size_t i = 0; i < sizeof(MomentSettings) / sizeof(uint32_t); ++i)
-    if (given[i] != 0) out[i] = given[i];
+  for (const auto member : bake::kMomentMembers)
+    if (custom.*member != 0) result.*member = custom.*member;
   return result;
 }
 

@@ -54,8 +54,8 @@ const char* shortName(const PlanImage& image) {
   return image.name + (std::string_view(image.name).starts_with(kOwn) ? kOwn.size() : 0);
 }
 
-PlanCost costOf(const SolverPlan& plan) {
-  PlanCost cost;
+TableCost costOf(const SolverPlan& plan) {
+  TableCost cost;
   for (const PlanImage& image : plan.images) {
     (image.persistent ? cost.bytes : cost.bakeBytes) += bytesOf(image);
     if (!image.persistent) continue;

@@ -3,7 +3,7 @@
 // rest of this room (table_set.h, table_record.cpp) carries any such plan out.
 #pragma once
 
-#include <alpenglow/plan.h>
+#include <alpenglow/tables.h>
 
 #include <vector>
 
@@ -87,7 +87,16 @@ struct SolverPlan {
 };
 
 /// What a plan's images and passes cost, recorded in one piece.
-PlanCost costOf(const SolverPlan& plan);
+struct TableCost {
+  uint64_t bytes = 0;      ///< Of images that stay.
+  uint64_t bakeBytes = 0;  ///< Of images that the bake takes besides.
+  uint64_t texels = 0;     ///< Of images that stay.
+  uint64_t images = 0;     ///< That stay.
+  uint64_t pipelines = 0;
+  uint64_t dispatches = 0;
+  uint64_t units = 0;
+};
+TableCost costOf(const SolverPlan& plan);
 uint64_t bytesOf(const PlanImage& image);
 /// Without the library's own name before it.
 const char* shortName(const PlanImage& image);

@@ -1,6 +1,7 @@
 // Checks of TableDesc, before anything is made.
 #include <numbers>
 
+#include "atmosphere/bake/desc_members.h"
 #include "atmosphere/bake/moment_shape.h"
 #include "atmosphere/bake/table_set.h"
 #include "atmosphere/model/solvers.h"
@@ -28,12 +29,10 @@ Status checkRanges(const engine::Device& device, const char* what, const Size (&
   return Status::Ok;
 }
 
-template <typename Counts>
-bool anyGiven(const Counts& counts, const uint32_t Counts::*first) {
-  static_assert(sizeof(Counts) % sizeof(uint32_t) == 0);
-  const uint32_t* values = &(counts.*first);
-  for (size_t i = 0; i < sizeof(Counts) / sizeof(uint32_t); ++i)
-    if (values[i] != 0) return true;
+template <typename Counts, size_t N>
+bool anyGiven(const Counts& counts, uint32_t Counts::*const (&members)[N]) {
+  for (const auto member : members)
+    if (counts.*member != 0) return true;
   return false;
 }
 
@@ -58,16 +57,15 @@ Status checkCombination(const engine::Device& device, const TableDesc& desc) {
   const struct {
     bool given, allowed;
     const char* name;
-  } choices[] = {
-      {desc.quality != Quality::Default, moments, "a Quality"},
-      {anyGiven(desc.moments, &MomentSettings::depthMu), moments, "MomentSettings"},
-      {!allSuns(desc), moments, "a range of suns"},
-      {desc.mie == MieStorage::Packed, !moments && !model, "MieStorage::Packed"},
-      {anyGiven(desc.sizes, &TableSizes::transmittanceMu), !moments && !model, "TableSizes"},
-      {desc.orders != 0, !model, "orders"},
-      {desc.keepOrders, !model, "keepOrders"},
-      {desc.without != 0, moments, "TableDesc::without"},
-      {desc.samples != 0, defaultSamples(desc.solver) != 0, "samples"}};
+  } choices[] = {{desc.quality != Quality::Default, moments, "a Quality"},
+                 {anyGiven(desc.moments, kMomentMembers), moments, "MomentSettings"},
+                 {!allSuns(desc), moments, "a range of suns"},
+                 {desc.mie == MieStorage::Packed, !moments && !model, "MieStorage::Packed"},
+                 {anyGiven(desc.sizes, kSizeMembers), !moments && !model, "TableSizes"},
+                 {desc.orders != 0, !model, "orders"},
+                 {desc.keepOrders, !model, "keepOrders"},
+                 {desc.without != 0, moments, "TableDesc::without"},
+                 {desc.samples != 0, defaultSamples(desc.solver) != 0, "samples"}};
   for (const auto& choice : choices) {
     if (!choice.given || choice.allowed) continue;
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
@@ -180,11 +178,8 @@ TableDesc completed(const Parameters& parameters, const TableDesc& desc) {
     return full;
   }
   const TableSizes defaults = defaultTableSizes();
-  const uint32_t* from = &defaults.transmittanceMu;
-  uint32_t* to = &full.sizes.transmittanceMu;
-  static_assert(sizeof(TableSizes) % sizeof(uint32_t) == 0);
-  for (size_t i = 0; i < sizeof(TableSizes) / sizeof(uint32_t); ++i)
-    if (to[i] == 0) to[i] = from[i];
+  for (const auto size : kSizeMembers)
+    if (full.sizes.*size == 0) full.sizes.*size = defaults.*size;
   if (full.orders == 0) full.orders = 5;
   return full;
 }

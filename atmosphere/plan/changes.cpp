@@ -118,7 +118,8 @@ const char* tableChange(const Plan& has, const Plan& asked) {
   }
   if (plan::levelOf(a.quality) < plan::levelOf(b.quality))
     return "The tables are of a lower quality than is wanted.";
-  if (a.orders != b.orders && !(a.orders == 0 && asked.effects[3].on == false))
+  if (a.orders != b.orders &&
+      !(a.orders == 0 && !asked.effects[static_cast<uint32_t>(Effect::MultipleScattering)].on))
     return "The tables have other orders.";
   return nullptr;
 }

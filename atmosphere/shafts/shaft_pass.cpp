@@ -52,7 +52,7 @@ Status Shafts::create(bake::Resources& resources, const ShaftsDesc& desc, Shafts
     return resources.device().fail(Status::OutOfHostMemory, VK_SUCCESS,
                                    "Light shafts found no host memory.");
   }
-  ++resources.liveViews;
+  ++resources.live().views;
   const Status status = shafts->make();
   if (status != Status::Ok) {
     destroy(shafts, 0);  // Nothing was recorded with it: frame 0 has always completed.
@@ -64,7 +64,7 @@ Status Shafts::create(bake::Resources& resources, const ShaftsDesc& desc, Shafts
 
 void Shafts::destroy(Shafts* shafts, uint64_t frame) {
   if (shafts == nullptr) return;
-  --shafts->resources_.liveViews;
+  --shafts->resources_.live().views;
   engine::Device& device = shafts->device_;
   engine::DeletionQueue& deletions = device.deletions();
   const auto defer = [&](VkObjectType type, auto handle) {

@@ -10,7 +10,7 @@ namespace alpenglow::sky {
 /// How a camera's rays lie in an air volume.
 physics_f64::AirView airView(const Parameters& parameters, double altitude);
 
-/// What shaders/glsl/alpenglow/air_volume.glsl wants to know of a draw.
+/// What shaders/glsl/common/air_volume.glsl wants to know of a draw.
 struct AirLookup {
   physics_f64::AirView view;
   double up[3];          ///< The camera's vertical.

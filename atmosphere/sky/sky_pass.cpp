@@ -20,7 +20,7 @@ Status View::create(bake::Resources& resources, const ViewDesc& desc, const sky:
   if (view == nullptr) {
     return device.fail(Status::OutOfHostMemory, VK_SUCCESS, "A view found no host memory.");
   }
-  ++resources.liveViews;
+  ++resources.live().views;
   Status status = view->makeSlice();
   if (status == Status::Ok) status = view->makeLayout();
   if (status == Status::Ok && !desc.alwaysSliced)
@@ -38,7 +38,7 @@ Status View::create(bake::Resources& resources, const ViewDesc& desc, const sky:
 
 void View::destroy(View* view, uint64_t frame) {
   if (view == nullptr) return;
-  --view->resources_.liveViews;
+  --view->resources_.live().views;
   engine::Device& device = view->device_;
   engine::DeletionQueue& deletions = device.deletions();
   for (const auto* pipelines : {&view->pipelines_, &view->slicePipelines_})

@@ -58,12 +58,13 @@ bool narrow(const Instance& instance, const std::string& select,
 Status defaultRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
                            VkPhysicalDevice physicalDevice, Requirements* out,
                            std::string* missing) {
-  *out = Requirements{};
-  out->apiVersion = VK_API_VERSION_1_3;
-  out->synchronization2 = true;
-  out->dynamicRendering = true;
+  engine::FeatureSet needed;
+  out->apiVersion = needed.apiVersion = VK_API_VERSION_1_3;
+  out->synchronization2 = needed.synchronization2 = true;
+  out->dynamicRendering = needed.dynamicRendering = true;
+  out->features = needed.core;
   return engine::checkPhysicalDevice(
-      getInstanceProcAddr, instance, physicalDevice, *out,
+      getInstanceProcAddr, instance, physicalDevice, needed,
       [](void* user, const Diagnostic& diagnostic) {
         *static_cast<std::string*>(user) = diagnostic.message;
       },

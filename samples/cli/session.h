@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "terrain/gpu.h"
+#include "common/gpu.h"
 
 namespace alpenglow::cli {
 

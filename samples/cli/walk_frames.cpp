@@ -3,8 +3,8 @@
 #include <alpenglow/io/atmosphere_file.h>
 
 #include <algorithm>
-#include <cstring>
 
+#include "common/compare.h"
 #include "common/scene_plan.h"
 
 namespace alpenglow::cli {
@@ -12,7 +12,7 @@ namespace {
 
 // Options and solver are the same for all of a walk, so that only these follow the air.
 bool sameShape(const TableDesc& a, const TableDesc& b) {
-  return std::memcmp(&a.moments, &b.moments, sizeof a.moments) == 0;
+  return samples::same(a.moments, b.moments);
 }
 
 }  // namespace

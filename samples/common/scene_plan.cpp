@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "failure.h"
-#include "terrain/landscape.h"
 
 namespace alpenglow::samples {
 namespace {
@@ -56,6 +55,10 @@ void keepTables(const io::Scene& scene, Needs* needs) {
 }
 
 }  // namespace
+
+Projection projectionOf(const io::SceneCamera& camera) {
+  return camera.orthographicHeight_m ? Projection::Orthographic : camera.projection;
+}
 
 void checkScenery(const io::Scene& scene) {
   if (scene.stars && io::solverOf(scene.model)) {

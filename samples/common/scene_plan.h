@@ -5,6 +5,9 @@
 
 namespace alpenglow::samples {
 
+/// Projection of a scene's camera.
+Projection projectionOf(const io::SceneCamera& camera);
+
 /// Throws a Failure for what the samples don't draw: triangles with a fisheye camera, stars with a
 /// simpler model.
 void checkScenery(const io::Scene& scene);

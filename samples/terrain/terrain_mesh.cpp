@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "gpu.h"
+#include "common/gpu.h"
 
 namespace alpenglow::samples {
 namespace {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <thread>
 
@@ -339,7 +338,7 @@ void App::drawPicture(const Frame& frame) {
   }
   now.tables = air_ ? air_->tables.get() : nullptr;
   now.siderealHours = scene.stars ? scene.stars->siderealHours : -1.0;
-  const bool changed = stale_ || std::memcmp(&now, &shown_, sizeof now) != 0;
+  const bool changed = stale_ || now != shown_;
   if (changed) lastChange_ = Clock::now();
   shown_ = now;
   stale_ = false;

@@ -20,7 +20,7 @@ constexpr Shader kShader = {kSpirv, sizeof(kSpirv), "shader"};
 
 class DeviceCreationTest : public ::testing::Test {
  protected:
-  void refused(const ContextDesc& desc, Status expected, const std::string& part) {
+  void refused(const DeviceDesc& desc, Status expected, const std::string& part) {
     Device* device = handleFrom<Device*>(1);
     EXPECT_EQ(Device::create(desc, &device), expected);
     EXPECT_EQ(device, nullptr);
@@ -44,38 +44,38 @@ TEST_F(DeviceCreationTest, GoodDescriptionIsAccepted) {
 }
 
 TEST_F(DeviceCreationTest, NullInstance) {
-  ContextDesc desc = mock_.contextDesc();
+  DeviceDesc desc = mock_.deviceDesc();
   desc.instance = VK_NULL_HANDLE;
   refused(desc, Status::InvalidArgument, "ContextDesc::instance is null");
 }
 
 TEST_F(DeviceCreationTest, NullPhysicalDevice) {
-  ContextDesc desc = mock_.contextDesc();
+  DeviceDesc desc = mock_.deviceDesc();
   desc.physicalDevice = VK_NULL_HANDLE;
   refused(desc, Status::InvalidArgument, "ContextDesc::physicalDevice is null");
 }
 
 TEST_F(DeviceCreationTest, NullDevice) {
-  ContextDesc desc = mock_.contextDesc();
+  DeviceDesc desc = mock_.deviceDesc();
   desc.device = VK_NULL_HANDLE;
   refused(desc, Status::InvalidArgument, "ContextDesc::device is null");
 }
 
 TEST_F(DeviceCreationTest, NullGetInstanceProcAddr) {
-  ContextDesc desc = mock_.contextDesc();
+  DeviceDesc desc = mock_.deviceDesc();
   desc.getInstanceProcAddr = nullptr;
   refused(desc, Status::InvalidArgument, "ContextDesc::getInstanceProcAddr is null");
 }
 
 TEST_F(DeviceCreationTest, QueueFamiliesWithoutArray) {
-  ContextDesc desc = mock_.contextDesc();
+  DeviceDesc desc = mock_.deviceDesc();
   desc.queueFamilyCount = 2;
   refused(desc, Status::InvalidArgument, "queueFamilyCount is 2");
 }
 
 TEST_F(DeviceCreationTest, RepeatedQueueFamily) {
   const uint32_t families[] = {4, 1, 4};
-  ContextDesc desc = mock_.contextDesc();
+  DeviceDesc desc = mock_.deviceDesc();
   desc.queueFamilies = families;
   desc.queueFamilyCount = 3;
   refused(desc, Status::InvalidArgument, "family 4 twice");
@@ -84,13 +84,13 @@ TEST_F(DeviceCreationTest, RepeatedQueueFamily) {
 TEST_F(DeviceCreationTest, HalfOfTheHooks) {
   MemoryHooks hooks;
   hooks.free = [](void*, const MemoryRange&) {};
-  ContextDesc desc = mock_.contextDesc();
+  DeviceDesc desc = mock_.deviceDesc();
   desc.memory = &hooks;
   refused(desc, Status::InvalidArgument, "lacks its function allocate");
 }
 
 TEST_F(DeviceCreationTest, OldApiAndNoSynchronizationAreListedTogether) {
-  ContextDesc desc = mock_.contextDesc();
+  DeviceDesc desc = mock_.deviceDesc();
   desc.enabled.apiVersion = VK_API_VERSION_1_2;
   desc.enabled.synchronization2 = false;
   refused(desc, Status::Unsupported, "Vulkan 1.3 (it is 1.2), synchronization2.");
@@ -98,7 +98,7 @@ TEST_F(DeviceCreationTest, OldApiAndNoSynchronizationAreListedTogether) {
 
 TEST_F(DeviceCreationTest, OldDevice) {
   mock_.properties.apiVersion = VK_API_VERSION_1_1;
-  refused(mock_.contextDesc(), Status::Unsupported,
+  refused(mock_.deviceDesc(), Status::Unsupported,
           "The device \"mock\" has Vulkan 1.1, but 1.3 or later is needed.");
 }
 
@@ -107,12 +107,12 @@ TEST_F(DeviceCreationTest, MissingFunctionsAreNamed) {
     mock_.missingFunction = name;
     mock_.diagnostics.clear();
     mock_.diagnosticValues.clear();
-    refused(mock_.contextDesc(), Status::Unsupported, name);
+    refused(mock_.deviceDesc(), Status::Unsupported, name);
   }
 }
 
 TEST_F(DeviceCreationTest, NoDiagnosticCallbackIsFine) {
-  ContextDesc desc = mock_.contextDesc();
+  DeviceDesc desc = mock_.deviceDesc();
   desc.diagnostic = nullptr;
   desc.device = VK_NULL_HANDLE;
   Device* device = nullptr;
@@ -122,7 +122,7 @@ TEST_F(DeviceCreationTest, NoDiagnosticCallbackIsFine) {
 TEST_F(DeviceCreationTest, DebugNamesAreLoadedOnlyOnRequest) {
   EXPECT_EQ(mock_.table().SetDebugUtilsObjectNameEXT, nullptr);
   Dispatch table;
-  const ContextDesc desc = mock_.contextDesc();
+  const DeviceDesc desc = mock_.deviceDesc();
   EXPECT_TRUE(table.load(desc.getInstanceProcAddr, desc.instance, desc.device, true, nullptr));
   EXPECT_NE(table.SetDebugUtilsObjectNameEXT, nullptr);
 }
@@ -184,16 +184,15 @@ TEST_F(EngineDeviceTest, CountersFollowWhatIsAlive) {
   Image first = makeImage();
   MemoryBlock block = bind(&first);
   Image second = makeImage();
-  ResourceReport report = device_->counters().report();
-  EXPECT_EQ(report.images, 2u);
-  EXPECT_EQ(report.bytes, 1000u);
+  const Counters& report = device_->counters();
+  EXPECT_EQ(report.images.load(), 2u);
+  EXPECT_EQ(report.bytes.load(), 1000u);
   destroyImage(*device_, &second);
   destroyImage(*device_, &first);
   freeBlock(*device_, &block);
-  report = device_->counters().report();
-  EXPECT_EQ(report.images, 0u);
-  EXPECT_EQ(report.bytes, 0u);
-  EXPECT_EQ(report.peakBytes, 1000u);
+  EXPECT_EQ(report.images.load(), 0u);
+  EXPECT_EQ(report.bytes.load(), 0u);
+  EXPECT_EQ(report.peakBytes.load(), 1000u);
 }
 
 TEST_F(EngineDeviceTest, LeftoversAreReportedAtTheEnd) {
@@ -327,9 +326,9 @@ TEST_F(EngineDeviceTest, TooManyConstantsAreRefused) {
 
 TEST_F(EngineDeviceTest, DynamicRenderingMustBeEnabled) {
   Device::destroy(device_);
-  ContextDesc contextDesc = mock_.contextDesc();
-  contextDesc.enabled.dynamicRendering = false;
-  ASSERT_EQ(Device::create(contextDesc, &device_), Status::Ok);
+  DeviceDesc deviceDesc = mock_.deviceDesc();
+  deviceDesc.enabled.dynamicRendering = false;
+  ASSERT_EQ(Device::create(deviceDesc, &device_), Status::Ok);
   GraphicsPipelineDesc desc;
   desc.vertex = kShader;
   desc.fragment = kShader;
@@ -417,7 +416,7 @@ TEST_F(EngineDeviceTest, TwoQueueFamiliesMakeImagesConcurrent) {
   destroyImage(*device_, &exclusive);
   Device::destroy(device_);
   const uint32_t families[] = {0, 2};
-  ContextDesc desc = mock_.contextDesc();
+  DeviceDesc desc = mock_.deviceDesc();
   desc.queueFamilies = families;
   desc.queueFamilyCount = 2;
   ASSERT_EQ(Device::create(desc, &device_), Status::Ok);

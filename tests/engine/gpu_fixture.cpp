@@ -9,7 +9,8 @@ using namespace engine;
 void GpuTest::SetUp() {
   DeviceTest::SetUp();
   ASSERT_FALSE(HasFatalFailure());
-  ASSERT_EQ(engine::Device::create(contextDesc(), &engineDevice_), Status::Ok) << lastDiagnostic();
+  ASSERT_EQ(engine::Device::create(deviceDesc(contextDesc()), &engineDevice_), Status::Ok)
+      << lastDiagnostic();
 }
 
 void GpuTest::TearDown() {
@@ -109,6 +110,26 @@ void GpuTest::copyBack(VkCommandBuffer commandBuffer, engine::Image& image, uint
   barriers.memory(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
   ASSERT_EQ(barriers.record(*engineDevice_, commandBuffer), Status::Ok);
+}
+
+engine::FeatureSet featureSet(const Requirements& requirements) {
+  return {requirements.apiVersion, requirements.synchronization2, requirements.dynamicRendering,
+          requirements.features};
+}
+
+engine::DeviceDesc deviceDesc(const ContextDesc& desc) {
+  engine::DeviceDesc device;
+  device.instance = desc.instance;
+  device.physicalDevice = desc.physicalDevice;
+  device.device = desc.device;
+  device.getInstanceProcAddr = desc.getInstanceProcAddr;
+  device.enabled = featureSet(desc.enabled);
+  device.queueFamilies = desc.queueFamilies;
+  device.queueFamilyCount = desc.queueFamilyCount;
+  device.diagnostic = desc.diagnostic;
+  device.user = desc.user;
+  device.debugNames = desc.debugNames;
+  return device;
 }
 
 float halfToFloat(uint16_t half) {

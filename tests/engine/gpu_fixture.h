@@ -63,6 +63,10 @@ class GpuTest : public DeviceTest {
   headless::HostBuffer readback_;
 };
 
+/// The same device as the engine is told of it.
+engine::FeatureSet featureSet(const Requirements& requirements);
+engine::DeviceDesc deviceDesc(const ContextDesc& desc);
+
 /// The value of a half float.
 float halfToFloat(uint16_t half);
 

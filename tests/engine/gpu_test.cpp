@@ -373,7 +373,7 @@ TEST_F(GpuTest, OneBlockHoldsMappedBuffersOfSeveralAlignments) {
 
 TEST_F(GpuTest, AllocationCallbacksArePaired) {
   testing::CountingAllocator allocator;
-  ContextDesc desc = contextDesc();
+  DeviceDesc desc = deviceDesc(contextDesc());
   desc.allocator = allocator.callbacks();
   engine::Device* counted = nullptr;
   ASSERT_EQ(engine::Device::create(desc, &counted), Status::Ok);
@@ -417,7 +417,7 @@ TEST_F(GpuTest, HostMemoryHookServesImages) {
     return result;
   };
   hooks.free = [](void* user, const MemoryRange&) { ++static_cast<Pool*>(user)->freed; };
-  ContextDesc desc = contextDesc();
+  DeviceDesc desc = deviceDesc(contextDesc());
   desc.memory = &hooks;
   engine::Device* hooked = nullptr;
   ASSERT_EQ(engine::Device::create(desc, &hooked), Status::Ok);
@@ -459,7 +459,7 @@ TEST_F(GpuTest, ImpossibleImagesAreRefusedBeforeValidationSeesThem) {
 }
 
 TEST_F(GpuTest, RequirementsOfThisDevice) {
-  Requirements needed = device().enabled();
+  FeatureSet needed = featureSet(device().enabled());
   std::string missing;
   const auto check = [&] {
     return checkPhysicalDevice(

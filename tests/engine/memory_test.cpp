@@ -59,7 +59,7 @@ class MemoryTest : public ::testing::Test {
   }
 
   void make(size_t imageCount, size_t bufferCount, const MemoryHooks* hooks = nullptr) {
-    ContextDesc desc = mock_.contextDesc();
+    DeviceDesc desc = mock_.deviceDesc();
     desc.memory = hooks;
     ASSERT_EQ(Device::create(desc, &device_), Status::Ok);
     images_.resize(imageCount);

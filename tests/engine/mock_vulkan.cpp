@@ -259,8 +259,9 @@ MockVulkan::~MockVulkan() { g_current = nullptr; }
 
 MockVulkan& MockVulkan::current() { return *g_current; }
 
-ContextDesc MockVulkan::contextDesc() {
-  ContextDesc desc;
+engine::DeviceDesc MockVulkan::deviceDesc() {
+  engine::DeviceDesc desc;
+  desc.name = "ContextDesc";
   desc.instance = handleFrom<VkInstance>(1);
   desc.physicalDevice = handleFrom<VkPhysicalDevice>(2);
   desc.device = handleFrom<VkDevice>(3);
@@ -283,7 +284,7 @@ engine::Dispatch MockVulkan::table() const {
 
 engine::Device* MockVulkan::makeDevice() {
   engine::Device* device = nullptr;
-  const Status status = engine::Device::create(contextDesc(), &device);
+  const Status status = engine::Device::create(deviceDesc(), &device);
   if (status != Status::Ok) mistakes.emplace_back("The mock device can't be made.");
   return device;
 }

@@ -22,7 +22,7 @@ class MockVulkan {
   /// A device on this Vulkan, diagnostics recorded; the test destroys it.
   engine::Device* makeDevice();
   /// A description that passes every check.
-  ContextDesc contextDesc();
+  engine::DeviceDesc deviceDesc();
   engine::Dispatch table() const;
 
   // What the device is like; to be changed before a call.

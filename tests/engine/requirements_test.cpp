@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <bit>
+
 #include "tests/engine/mock_vulkan.h"
 
 namespace alpenglow::engine {
@@ -17,25 +20,25 @@ class RequirementsTest : public ::testing::Test {
     needed_.dynamicRendering = true;
   }
   Status check() {
-    const ContextDesc desc = mock_.contextDesc();
+    const DeviceDesc desc = mock_.deviceDesc();
     return checkPhysicalDevice(desc.getInstanceProcAddr, desc.instance, desc.physicalDevice,
                                needed_, desc.diagnostic, desc.user);
   }
   MockVulkan mock_;
-  Requirements needed_;
+  FeatureSet needed_;
 };
 
 TEST_F(RequirementsTest, DeviceWithEverythingPasses) {
-  needed_.features.geometryShader = VK_TRUE;
+  needed_.core.geometryShader = VK_TRUE;
   mock_.features.geometryShader = VK_TRUE;
   EXPECT_EQ(check(), Status::Ok);
   EXPECT_TRUE(mock_.diagnostics.empty());
 }
 
 TEST_F(RequirementsTest, EveryGapIsListed) {
-  needed_.features.geometryShader = VK_TRUE;
-  needed_.features.inheritedQueries = VK_TRUE;
-  needed_.features.depthClamp = VK_TRUE;
+  needed_.core.geometryShader = VK_TRUE;
+  needed_.core.inheritedQueries = VK_TRUE;
+  needed_.core.depthClamp = VK_TRUE;
   mock_.features.depthClamp = VK_TRUE;
   mock_.synchronization2 = false;
   EXPECT_EQ(check(), Status::Unsupported);
@@ -53,17 +56,16 @@ TEST_F(RequirementsTest, OldDeviceIsNotAskedForNewFeatures) {
 }
 
 TEST_F(RequirementsTest, AllFeaturesMissingStillFitTheSentence) {
-  VkBool32* const members = &needed_.features.robustBufferAccess;
-  for (size_t i = 0; i < sizeof(VkPhysicalDeviceFeatures) / sizeof(VkBool32); ++i) {
-    members[i] = VK_TRUE;
-  }
+  std::array<VkBool32, sizeof(VkPhysicalDeviceFeatures) / sizeof(VkBool32)> all;
+  all.fill(VK_TRUE);
+  needed_.core = std::bit_cast<VkPhysicalDeviceFeatures>(all);
   EXPECT_EQ(check(), Status::Unsupported);
   EXPECT_NE(mock_.lastDiagnostic().find("robustBufferAccess, "), std::string::npos);
   EXPECT_NE(mock_.lastDiagnostic().find(", inheritedQueries."), std::string::npos);
 }
 
 TEST_F(RequirementsTest, NullHandlesAreNamed) {
-  const ContextDesc desc = mock_.contextDesc();
+  const DeviceDesc desc = mock_.deviceDesc();
   EXPECT_EQ(checkPhysicalDevice(nullptr, desc.instance, desc.physicalDevice, needed_,
                                 desc.diagnostic, desc.user),
             Status::InvalidArgument);
@@ -84,17 +86,17 @@ TEST_F(RequirementsTest, InstanceOfVulkan10IsRefused) {
 }
 
 TEST_F(RequirementsTest, MergeKeepsTheGreaterOfBoth) {
-  Requirements other;
+  FeatureSet other;
   other.apiVersion = VK_API_VERSION_1_1;
-  other.features.geometryShader = VK_TRUE;
+  other.core.geometryShader = VK_TRUE;
   needed_.dynamicRendering = false;
-  needed_.features.depthClamp = VK_TRUE;
-  mergeRequirements(other, &needed_);
+  needed_.core.depthClamp = VK_TRUE;
+  mergeFeatures(other, &needed_);
   EXPECT_EQ(needed_.apiVersion, VK_API_VERSION_1_3);
   EXPECT_TRUE(needed_.synchronization2);
   EXPECT_FALSE(needed_.dynamicRendering);
-  EXPECT_EQ(needed_.features.geometryShader, VK_TRUE);
-  EXPECT_EQ(needed_.features.depthClamp, VK_TRUE);
+  EXPECT_EQ(needed_.core.geometryShader, VK_TRUE);
+  EXPECT_EQ(needed_.core.depthClamp, VK_TRUE);
 }
 
 }  // namespace

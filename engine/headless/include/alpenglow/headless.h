@@ -123,7 +123,7 @@ class Device {
 
   HostBuffer createHostBuffer(VkDeviceSize size, VkBufferUsageFlags usage, std::string* error);
   Image createImage(VkExtent2D extent, VkFormat format, VkImageUsageFlags usage, uint32_t levels,
-                    std::string* error);
+                    std::string* error, VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT);
   /// Any device function, through vkGetDeviceProcAddr; null when unknown.
   PFN_vkVoidFunction function(const char* name) const;
 

@@ -1,0 +1,52 @@
+#include "atmosphere/api/device_desc.h"
+
+namespace alpenglow {
+inline namespace v1 {
+
+engine::FeatureSet featureSet(const Requirements& requirements) {
+  engine::FeatureSet set;
+  set.apiVersion = requirements.apiVersion;
+  set.synchronization2 = requirements.synchronization2;
+  set.dynamicRendering = requirements.dynamicRendering;
+  set.core = requirements.features;
+  return set;
+}
+
+Status createDevice(const ContextDesc& desc, const Requirements& needed, engine::Device** out) {
+  engine::ShaderReplacement shaders;
+  if (desc.shaders != nullptr) shaders = {desc.shaders->user, desc.shaders->replace};
+  engine::DeviceDesc device;
+  device.name = "ContextDesc";
+  device.instance = desc.instance;
+  device.physicalDevice = desc.physicalDevice;
+  device.device = desc.device;
+  device.getInstanceProcAddr = desc.getInstanceProcAddr;
+  device.needed = featureSet(needed);
+  device.enabled = featureSet(desc.enabled);
+  device.queueFamilies = desc.queueFamilies;
+  device.queueFamilyCount = desc.queueFamilyCount;
+  device.pipelineCache = desc.pipelineCache;
+  device.allocator = desc.allocator;
+  device.memory = desc.memory;
+  device.shaders = &shaders;
+  device.diagnostic = desc.diagnostic;
+  device.user = desc.user;
+  device.debugNames = desc.debugNames;
+  return engine::Device::create(device, out);
+}
+
+ResourceReport resourceReportOf(const engine::Counters& counters) {
+  ResourceReport report;
+  report.pipelines = counters.pipelines;
+  report.shaderVariants = counters.shaderVariants;
+  report.images = counters.images;
+  report.buffers = counters.buffers;
+  report.bytes = counters.bytes;
+  report.peakBytes = counters.peakBytes;
+  report.dispatches = counters.dispatches;
+  report.draws = counters.draws;
+  return report;
+}
+
+}  // namespace v1
+}  // namespace alpenglow

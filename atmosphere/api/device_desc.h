@@ -1,0 +1,17 @@
+// A context's description in the engine's own words, and the engine's figures in the host's.
+#pragma once
+
+#include <alpenglow/context.h>
+
+#include "engine/device.h"
+
+namespace alpenglow {
+inline namespace v1 {
+
+engine::FeatureSet featureSet(const Requirements& requirements);
+/// Makes the context's device, or says why not: `needed` is what the context's capabilities need.
+Status createDevice(const ContextDesc& desc, const Requirements& needed, engine::Device** out);
+ResourceReport resourceReportOf(const engine::Counters& counters);
+
+}  // namespace v1
+}  // namespace alpenglow
