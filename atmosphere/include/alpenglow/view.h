@@ -1,165 +1,252 @@
-// Drawing: a view records sky, sun disc, ground sphere and the air in front of it into a rendering
-// scope that the host has begun, from the ground to outer space.
+// One picture: createView says what it looks like, beginFrame states a frame, the record functions
+// record it. From the ground to outer space.
 #pragma once
 
+#include <alpenglow/camera.h>
 #include <alpenglow/tables.h>
 
 namespace alpenglow {
 inline namespace v1 {
 
-struct View;    ///< Opaque.
-struct Shafts;  ///< Opaque: alpenglow/shafts.h.
+/// Opaque. Host access must be externally synchronised, except that after beginFrame the record
+/// functions of one view may be called in parallel with different command buffers, which must execute
+/// in the order in which the functions are declared below. Different views may be used in parallel.
+struct View;
 
-enum class Projection : uint32_t {
-  Perspective,  ///< fov is vertical, in (0, pi).
-  Fisheye,      ///< Equidistant; fov is the full circle's, in (0, 2 pi]; the largest centred circle
-                ///< of the viewport, black outside.
-  Orthographic,  ///< Parallel rays from the plane through the camera; Camera::height_m.
+inline constexpr uint32_t kMaxCameras = 4;
+
+enum class LightShaftMethod : uint32_t {
+  Off,
+  /// Light-volume mesh over the shadow map: each crossing between light and shadow adds or subtracts
+  /// tabulated single scattering (after Billeter, Sintorn & Assarsson 2010, "Real-Time Volumetric
+  /// Shadows using Polygonal Light Volumes", HPG). The recommended method.
+  LightVolume,
+  /// Shadow volumes of silhouette edges, from a geometry shader: Bruneton & Neyret 2008, section 5;
+  /// ZP+ of Hornus et al. 2005. Nested shadows count twice. Needs kCapabilityShadowVolumes.
+  ShadowVolume,
+  /// Steps along each ray, each tested against the shadow map.
+  RayMarch,
 };
 
-enum class DepthConvention : uint32_t {
-  Standard,  ///< 0 near, 1 far.
-  Reversed,  ///< 1 near, 0 far.
+struct LightShaftDesc {
+  LightShaftMethod method = LightShaftMethod::Off;
+  uint32_t lightMask = 0;      ///< Bits of the lights that cast; 0 or 1: light 0. No others yet.
+  uint32_t shadowMapSize = 0;  ///< Texels on a side; 0: 2048.
+  uint32_t meshSize = 0;       ///< LightVolume: vertices on a side, at most shadowMapSize; 0: 1024.
+  uint32_t stepCount = 0;      ///< RayMarch: steps of a ray, at most 4096; 0: 32.
+  uint32_t listLength = 0;     ///< Must be 0 in this version.
+  /// Share of multiple scattering that a ray loses when it loses all of its single scattering, at most
+  /// 1; 0: 0.7, the nearest to path-traced mountains; below 0: none. Not ShadowVolume.
+  double multipleLoss = 0.0;
+  bool hostPipelines = false;  ///< Must be false in this version.
+  bool closed = false;  ///< Casters are closed surfaces, counter-clockwise seen from outside: the
+                        ///< shadow map leaves out the faces towards the sun.
+  bool adjacency = false;  ///< Casters are triangles with adjacency (alpenglow/mesh/adjacency.h), else
+                           ///< plain triangles. ShadowVolume needs it.
+  uint32_t vertexStride = 0;  ///< Bytes from one vertex of a caster to the next; 0: 12.
+  uint32_t vertexOffset = 0;  ///< Of its position, three floats.
 };
 
-/// What the depth of the host's picture means, with its DepthConvention: distances along
-/// Camera::forward.
-struct DepthRange {
-  double near_m = 0.0;  ///< Above 0 (perspective); any (orthographic).
-  double far_m = 0.0;   ///< Above near_m; 0: infinitely far (perspective).
+enum class SkyMethod : uint32_t {
+  Lut,        ///< From the sky-view LUT, which recordLuts updates. Orthographic cameras and solvers
+              ///< without a LUT integrate, as does Standard above the top of the atmosphere.
+  Integrate,  ///< Integrates or looks up along each pixel's ray; no LUT.
 };
 
-/// The depth image of the host's opaque scene, which recordAir and recordShafts read: one sample a
-/// pixel, usage SAMPLED and DEPTH_STENCIL_ATTACHMENT, in the layout below while they execute, with
-/// its writes made available to fragment shader reads and early fragment tests.
-struct SceneDepth {
-  VkImageView view = VK_NULL_HANDLE;  ///< Of the depth aspect.
-  VkFormat format = VK_FORMAT_UNDEFINED;
-  VkExtent2D extent = {};
-  VkImageLayout layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
+enum class AerialPerspective : uint32_t {
+  Off,
+  On,         ///< From the aerial-perspective LUT where Solver::Moments has one, else as Integrate.
+  LutOnly,    ///< Unsupported in this version.
+  Integrate,  ///< Integrates along each pixel's ray; no LUT.
 };
 
-/// An equirectangular map of the ground's albedo: u = 0 at longitude -180 degrees, v = 0 at the
-/// north pole. Give an sRGB format if the image is sRGB. All zero: the uniform albedo.
-struct GroundAlbedoMap {
-  VkImageView view = VK_NULL_HANDLE;
-  VkSampler sampler = VK_NULL_HANDLE;  ///< Repeat in u, clamp in v, linear, with mip levels.
-  VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-  uint32_t width = 0, height = 0;  ///< Of level 0, in texels.
-};
+enum class ColorSpace : uint32_t { Rec709, Rec2020, Xyz };  ///< Must be Rec709 in this version.
 
-/// What the host's rendering scope looks like. Everything stays the host's.
+/// What the picture looks like. Everything named here stays the host's.
 struct ViewDesc {
-  VkFormat colorFormat = VK_FORMAT_UNDEFINED;
-  VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< With depth, only far pixels are drawn.
+  VkFormat colorFormat = VK_FORMAT_UNDEFINED;  ///< Of the scope's colour attachment.
+  VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< Of its depth attachment; with one, only far pixels
+                                               ///< are drawn by recordSky.
+  VkFormat sceneDepthFormat = VK_FORMAT_UNDEFINED;  ///< Of FrameDesc::sceneDepth; 0: depthFormat.
   DepthConvention depth = DepthConvention::Standard;
-  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+  uint32_t samples = 0;  ///< MSAA of the scope: 1, 2, 4 ...; 0: 1. Aerial perspective needs 1.
   VkRenderPass renderPass = VK_NULL_HANDLE;  ///< Null: dynamic rendering.
   uint32_t subpass = 0;
-  uint32_t viewMask = 0;  ///< Must be 0: multiview is refused by this version.
+  uint32_t viewMask = 0;  ///< Must be 0 in this version.
   Projection projection = Projection::Perspective;
-  Solver solver = Solver::Moments;    ///< As the tables that will be drawn with.
-  MieStorage mie = MieStorage::Full;  ///< The same; of Solver::Standard.
-  GroundAlbedoMap groundAlbedo;
-  /// Bits of kTableEffects, those of the tables that will be drawn with; and of kViewEffects: no
-  /// pipeline is made for what the view is without, and a draw that would see it is refused.
-  EffectFlags without = 0;
-  /// Every recordSky and recordAir follows a recordSkySlice for it: no pipeline is made for others,
-  /// which are refused. Needs skySlice.
-  bool alwaysSliced = false;
-  /// Tables whose shape a sky slice takes; null: the view has none. With a slice, recordSkySlice
-  /// once a frame makes a pixel of recordSky much cheaper; of Solver::Standard, for cameras inside
-  /// the atmosphere only.
-  const Tables* skySlice = nullptr;
-  /// For recordAir; a null view: the view has no aerial perspective. Needs one sample, a colour
-  /// format that blends, and no fisheye. Make another view when the depth image is made anew.
-  SceneDepth sceneDepth;
-  /// Light shafts that the view draws; it outlives the view. Null: none. Needs sceneDepth, the same
-  /// as the shafts', and Solver::Moments.
-  const Shafts* shafts = nullptr;
+  ColorSpace color = ColorSpace::Rec709;
+  SkyMethod sky = SkyMethod::Lut;
+  AerialPerspective aerialPerspective = AerialPerspective::Off;  ///< Not for fisheyes.
+  /// Need aerial perspective and Solver::Moments.
+  LightShaftDesc lightShafts;
+  uint32_t skyLightDegree = 0;     ///< Must be 0 in this version, as the next three.
+  uint32_t environmentSize = 0;
+  uint32_t environmentLevels = 0;
+  uint32_t environmentFlags = 0;
+  /// Equirectangular albedo of the ground: u = 0 at longitude -180 degrees, v = 0 at the north pole;
+  /// with a sampler (repeat in u, clamp in v, linear, with mip levels) and its extent; layout 0:
+  /// SHADER_READ_ONLY_OPTIMAL. An sRGB image has an sRGB format. Null: the uniform albedo.
+  HostImage groundAlbedo;
+  /// Bits of kViewEffects, besides those that the tables lack: nothing of them is compiled, and a frame
+  /// that would show them is refused by beginFrame.
+  EffectFlags disabledEffects = 0;
+  double lutTolerance = 0.0;  ///< Must be 0 in this version: LUTs are reused only where they are exact.
+  uint32_t lutFrames = 0;     ///< Must be 0 or 1 in this version.
+  VkPipelineStageFlags2 readerStages = 0;  ///< That read our LUTs and shadow map; 0: compute and
+                                           ///< fragment. Always includes what the view itself needs.
 };
 
-/// Checks the description and makes the pipelines.
-Status createView(Context* context, const ViewDesc& desc, View** out);
-/// Frees the view once the frame being recorded has completed (advanceFrame).
-void destroyView(View* view);
+/// Derives solver, effects and the LUTs' shapes from `tables`, which need not be baked, and makes
+/// images and pipelines: the slow part. Any thread. The view survives resizes, and draws with other
+/// tables of the same solver, quality, storage and effects. Moments: of any quality.
+ALPENGLOW_API Status createView(Context* context, const Tables* tables, const ViewDesc& desc,
+                                View** out);
 
-/// Where the camera is and looks, in the planet's frame: origin at the centre, z to the north pole,
-/// x to latitude 0, longitude 0; metres. Altitude is |position| - Rg, taken in double; below the
-/// ground it is clamped to 0.
-struct Camera {
-  double position_m[3] = {};
-  double forward[3] = {};  ///< Unit vectors, orthogonal.
-  double up[3] = {};
-  double fov = 0.0;       ///< Radians, see Projection; not orthographic.
-  double height_m = 0.0;  ///< Orthographic: from the lower to the upper edge of the picture.
-};
+/// Deferred: freed once the frame being recorded has completed (advanceFrame). Null is ignored.
+ALPENGLOW_API void destroyView(View* view);
 
-/// The sun of this frame: never state of the tables.
-struct Sun {
-  double direction[3] = {};  ///< Unit vector towards the sun, in the planet's frame.
-  Spectrum irradiance;       ///< At the top of the atmosphere.
+/// For later versions: a host's shadow map, or the transmittance of clouds.
+struct LightMap;
+
+/// One light of a frame; of TableDesc::lights at the same index.
+struct Light {
+  double direction[3] = {};  ///< Unit, world axes, towards the light. Zero: absent. Light 0 is required.
   double discRadius = 0.0;   ///< Angular, radians; 0 draws no disc.
+  double dimming = 0.0;      ///< Share of its light that is taken away, 0 to 1: an eclipse, a fade.
+  double litFrom[3] = {};    ///< Must be 0 in this version, as the next two.
+  const LightMap* shadowMap = nullptr;
+  const LightMap* clouds = nullptr;
 };
 
-struct SkyDraw {
-  Camera camera;
-  Sun sun;
-  double radianceScale = 0.0;  ///< Factor on the stored radiance, so that night survives half
-                               ///< floats; 0 means 1.
-  VkRect2D viewport = {};      ///< In pixels of the colour attachment.
-  DepthRange depth;            ///< For recordAir and recordShafts.
+/// A pass in which the host draws its casters: pipeline, viewport and scissor are set.
+struct CasterPass {
+  uint32_t light = 0;
+  LightShaftMethod method = LightShaftMethod::Off;  ///< ShadowVolume: draw with adjacency.
+  VkExtent2D extent = {};
+  double origin[3] = {};          ///< World units: subtract it in double.
+  float clipFromOrigin[16] = {};  ///< Column-major; from world units off `origin`.
+  const void* internal = nullptr;
 };
 
-/// Records, outside any rendering scope, the slice that this draw's camera and sun look into: one
-/// dispatch, of the light along all rays (moments) or of the scattering table (standard); and, with
-/// ViewDesc::sceneDepth and moments, its air volume: the same up to every distance. A
-/// recordSky of the same tables, camera position and sun direction that follows in recording order
-/// reads it; any other reads the tables. InvalidArgument without ViewDesc::skySlice, and for tables
-/// of another shape. Nothing is recorded for orthographic cameras, whose rays have an observer
-/// each, and, with Solver::Standard, for a camera outside the atmosphere; the picture is that of
-/// the tables then. With Moments it is interpolated between the rays of the slice, 64 x 160 inside
-/// the atmosphere and 128 x 160 outside (fewer where ViewDesc::skySlice is of a level below
-/// medium), and off by what docs/stability.md says. Clobbers: compute pipeline, sets 0 and 1, push
-/// constants.
-Status recordSkySlice(View* view, VkCommandBuffer commands,
-                      const Tables* tables, const SkyDraw& draw);
+/// For each of its casters calls placeCaster, then binds its vertices (binding 0, with stride and
+/// offset of LightShaftDesc) and indices and draws. Binds no pipeline and no descriptor set.
+using DrawCastersFn = void (*)(void* user, VkCommandBuffer commands, const CasterPass& pass);
 
-/// Draws the viewport inside the host's rendering scope, with dynamic viewport and scissor: a few
-/// draws, at most 64, of rectangles that together are the viewport, each with the pipeline for what
-/// its pixels may see of air, ground and sun. The tables must be ready. Clobbers: graphics
-/// pipeline, sets 0 and 1 (0 to 3 with ViewDesc::sceneDepth), push constants, viewport, scissor.
-Status recordSky(View* view, VkCommandBuffer commands, const Tables* tables,
-                 const SkyDraw& draw);
+struct Casters {
+  Box bounds;  ///< World. All casters lie in it, and the shadow map covers it.
+  DrawCastersFn draw = nullptr;  ///< Called by recordShadowMap (ShadowVolume: by recordLightShafts), on
+                                 ///< its thread. Null: nothing casts.
+  void* user = nullptr;
+  uint64_t version = 0;  ///< A new value whenever a caster has moved or changed: the shadow map is kept
+                         ///< while it, the bounds and the light stay. 0: drawn each frame.
+};
 
-/// Aerial perspective: draws, inside the host's rendering scope, over every pixel of the viewport
-/// that the host's scene covers: colour times transmittance plus light scattered on the way, less
-/// what shadows keep from it (ViewDesc::shafts). The host has drawn its opaque scene into the
-/// colour attachment in linear radiance times SkyDraw::radianceScale; the scope's depth attachment,
-/// if any, is read-only (ViewDesc::sceneDepth is read meanwhile). With a sky slice recorded for
-/// this draw it reads that frame's air volume, else it integrates each pixel's ray through the
-/// tables. Sky pixels are left to recordSky, in either order. Needs ViewDesc::sceneDepth,
-/// kCapabilityAir and SkyDraw::depth. Not for fisheyes. Clobbers what recordSky does, and sets 0
-/// to 2.
-Status recordAir(View* view, VkCommandBuffer commands, const Tables* tables,
-                 const SkyDraw& draw);
+/// Everything about one frame. Read during beginFrame only, but for casters.draw and casters.user.
+struct FrameDesc {
+  const Tables* tables = nullptr;  ///< Ready; null: those of createView.
+  World world;
+  Camera cameras[kMaxCameras];  ///< Camera 0; the others must be absent in this version.
+  Light lights[kMaxLights];     ///< Light 0; likewise.
+  double radianceScale = 0.0;   ///< Factor on all radiance, so that night survives half floats; 0: 1.
+  /// The host's opaque scene, for aerial perspective and light shafts: a view of the depth aspect, one
+  /// sample a pixel, usage SAMPLED and DEPTH_STENCIL_ATTACHMENT; layout 0:
+  /// DEPTH_STENCIL_READ_ONLY_OPTIMAL. Its writes are visible to fragment shader reads and early
+  /// fragment tests when recordLightShafts or, without shafts, the rendering scope begins.
+  HostImage sceneDepth;
+  Casters casters;
+  const float* horizon = nullptr;  ///< Must be null in this version.
+  uint32_t horizonCount = 0;
+};
 
-/// The matrix (column-major) that a host may draw its scene with, and that its depth image must
-/// agree with: from metres off the camera, in the planet's axes, to Vulkan's clip space. With z the
-/// distance along Camera::forward, n = near_m and f = far_m, depth is (Standard) f (z - n) /
-/// (z (f - n)), or 1 - n / z without f; (Reversed) n (f - z) / (z (f - n)), or n / z; orthographic
-/// (z - n) / (f - n), or (f - z) / (f - n). Not for fisheyes.
-void clipFromCamera(Projection projection, DepthConvention convention, const SkyDraw& draw,
-                    float matrix[16]);
+/// Index of FrameWork::images. kViewSceneDepth is the host's own, in the state that it must have from
+/// recordLightShafts to recordSky.
+enum ViewImage : uint32_t {
+  kViewSkyLut,     ///< Light that needs no phase function of aerosols.
+  kViewSkyLutMie,  ///< Single scattering of aerosols, without their phase function.
+  kViewAerialPerspectiveLut0,
+  kViewAerialPerspectiveLut1,
+  kViewAerialPerspectiveLut2,
+  kViewShadowMap,
+  kViewLightShafts,  ///< What shadows take from each pixel's ray; LightVolume and ShadowVolume.
+  kViewSceneDepth,
+  kViewImageCount
+};
 
-/// A camera above a point of the planet, as scene files give it. Angles in radians: heading
-/// clockwise from north, pitch above the horizon (pi/2: the zenith), roll clockwise.
-Camera cameraFromGeodetic(const Parameters& parameters, double latitude, double longitude,
-                          double altitude_m, double heading, double pitch, double roll, double fov);
-/// Unit vector towards a sun seen at these angles about the camera's local vertical: elevation
-/// above the horizontal, azimuth clockwise from north.
-void sunDirection(double latitude, double longitude, double elevation, double azimuth,
-                  double direction[3]);
+enum RecordFlag : uint32_t {
+  kRecordLuts = 1u << 0,
+  kRecordShadowMap = 1u << 1,
+  kRecordLightShafts = 1u << 2,
+  kRecordAerialPerspective = 1u << 3,
+  kRecordSky = 1u << 4,
+};
+using RecordFlags = uint32_t;
+
+/// What may be in view.
+enum VisibilityFlag : uint32_t {
+  kVisibleSky = 1u << 0,
+  kVisibleGround = 1u << 1,  ///< The planet's own surface.
+  kVisibleScene = 1u << 2,   ///< The host's opaque scene, in a depth image.
+  kVisibleSpace = 1u << 3,   ///< Pixels whose rays meet no atmosphere.
+  kVisibleSun = 1u << 4,     ///< The sun's disc.
+};
+using VisibilityFlags = uint32_t;
+
+/// Descriptor sets of a view, in the order in which its own pipelines bind them; null: not had.
+enum ViewSet : uint32_t {
+  kViewSetTables,             ///< alpenglow/atmosphere.glsl.
+  kViewSetSky,                ///< Albedo map 0, sky-view LUT 1 and 2, scene depth 3.
+  kViewSetAerialPerspective,  ///< alpenglow/aerial_perspective.glsl: the LUT's images at 0, 1, 2.
+  kViewSetLightShafts,        ///< alpenglow/light_shafts.glsl.
+  kViewSetCount
+};
+
+/// What beginFrame answers; all zero when it fails.
+struct FrameWork {
+  RecordFlags record = 0;  ///< The record functions that will record something this frame.
+  VisibilityFlags visible = 0;  ///< Conservative; kVisibleScene with a scene depth.
+  double altitude_m = 0.0;      ///< Of camera 0.
+  /// On a surface that faces the light, at camera 0, in the shade of the planet alone: luminance-weighted
+  /// `color` without radianceScale. 0 below the horizon.
+  double illuminance[kMaxLights] = {};
+  double color[kMaxLights][3] = {};  ///< The same as linear Rec.709, times radianceScale.
+  VkDescriptorSet sets[kViewSetCount] = {};
+  ImageInfo images[kViewImageCount];  ///< By ViewImage.
+};
+
+/// CPU only: fixes this frame for the view. Makes what follows the extent of the scene's depth again
+/// when that has changed. On failure the record functions of this frame record nothing and return
+/// NotReady, so that one check suffices; NotReady also while the tables are not baked. `work` may be
+/// null. A view may begin again within a frame: what was recorded before stays valid.
+ALPENGLOW_API Status beginFrame(View* view, const FrameDesc& desc, FrameWork* work);
+
+// The record functions return Ok without recording anything where the frame doesn't need it. They
+// clobber pipelines, sets 0 to 3, push constants, viewport and scissor.
+
+/// Outside rendering scopes: sky-view LUT and aerial-perspective LUT. One dispatch each.
+ALPENGLOW_API Status recordLuts(View* view, VkCommandBuffer commands);
+/// Outside rendering scopes: the shadow map.
+ALPENGLOW_API Status recordShadowMap(View* view, VkCommandBuffer commands);
+/// Outside rendering scopes, after the host has drawn its scene's depth: what the shadows take from
+/// each pixel's ray.
+ALPENGLOW_API Status recordLightShafts(View* view, VkCommandBuffer commands);
+/// Inside the host's rendering scope: over every pixel of the viewport that the host's scene covers,
+/// colour times transmittance plus inscattering. The host has drawn its opaque scene in linear radiance
+/// times radianceScale; the scope's depth attachment, if any, is read-only.
+ALPENGLOW_API Status recordAerialPerspective(View* view, VkCommandBuffer commands);
+/// Inside the host's rendering scope: sky, sun disc and ground in the pixels that the scene leaves free;
+/// before or after aerial perspective. At most 64 draws.
+ALPENGLOW_API Status recordSky(View* view, VkCommandBuffer commands);
+
+/// In DrawCastersFn: what is drawn next lies at origin + rotation p for local positions p, in world
+/// units and axes. `rotation`: three rows, of determinant above 0 (a scale is welcome); null: none.
+ALPENGLOW_API void placeCaster(const CasterPass& pass, VkCommandBuffer commands,
+                               const double origin[3], const float rotation[9]);
+
+/// What the host's own pipelines need.
+struct ViewInfo {
+  VkDescriptorSetLayout setLayouts[kViewSetCount] = {};  ///< Null: not had.
+};
+ALPENGLOW_API Status viewInfo(const View* view, ViewInfo* out);
 
 }  // namespace v1
 }  // namespace alpenglow
