@@ -78,8 +78,7 @@ GapList listGaps(const FeatureSet& needed, const FeatureSet& offered) {
   if (needed.synchronization2 && !offered.synchronization2) gaps.add("synchronization2");
   if (needed.dynamicRendering && !offered.dynamicRendering) gaps.add("dynamicRendering");
   for (const Feature& feature : kFeatures) {
-    if (needed.core.*feature.member != VK_FALSE &&
-        offered.core.*feature.member == VK_FALSE) {
+    if (needed.core.*feature.member != VK_FALSE && offered.core.*feature.member == VK_FALSE) {
       gaps.add(feature.name);
     }
   }
@@ -95,8 +94,8 @@ Status report(DiagnosticFn diagnostic, void* user, Status status, const char* be
 }
 
 /// What the device has; the newer features are asked for only where it knows their struct.
-FeatureSet offeredBy(PFN_vkGetPhysicalDeviceFeatures2 getFeatures2,
-                     VkPhysicalDevice physicalDevice, uint32_t apiVersion) {
+FeatureSet offeredBy(PFN_vkGetPhysicalDeviceFeatures2 getFeatures2, VkPhysicalDevice physicalDevice,
+                     uint32_t apiVersion) {
   auto features13 = structure<VkPhysicalDeviceVulkan13Features>(
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
   auto features =

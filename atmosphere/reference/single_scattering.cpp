@@ -235,7 +235,8 @@ Estimate groundRadiance(const Medium& medium, const SunlitRay& ray, const Estima
 
 Status checkQuery(const ProbeQuery& query, const DiagnosticSink& sink) {
   // Queries in degrees come as rounded radians, so the nadir may exceed pi by a bit.
-  constexpr double kMost = std::numbers::pi * (1 + 1e-15), kAny = std::numeric_limits<double>::max();
+  constexpr double kMost = std::numbers::pi * (1 + 1e-15),
+                   kAny = std::numeric_limits<double>::max();
   const bool ray = !query.irradiance;
   const struct {
     const char* name;

@@ -20,14 +20,14 @@ Plan planOf(const Needs& needs, const char* preset = "earth", const TableDesc& b
   return plan;
 }
 
-bool on(const Plan& plan, Effect effect) { return plan.effects[static_cast<uint32_t>(effect)].on; }
+bool on(const Plan& plan, Effect effect) { return plan.choices[static_cast<uint32_t>(effect)].on; }
 
 Needs noon() {
   Needs needs;
   needs.altitudeTo_m = 100.0;
   needs.sunElevationFrom = 50.0 * kDegree;
   needs.sunElevationTo = 60.0 * kDegree;
-  needs.seen = kSeenSky | kSeenGround;
+  needs.seen = kVisibleSky | kVisibleGround;
   return needs;
 }
 
@@ -47,12 +47,12 @@ TEST(Plan, AFixedEveningSunTakesAQuarter) {
   needs.altitudeTo_m = 2.0;
   needs.sunElevationFrom = needs.sunElevationTo = 3.0 * kDegree;
   needs.sunFixed = true;
-  needs.seen = kSeenSky | kSeenGround | kSeenSun;
+  needs.seen = kVisibleSky | kVisibleGround | kVisibleSun;
   needs.sunDiscRadius = 0.0047;
   TableDesc medium;
   medium.quality = Quality::Medium;
   const Plan plan = planOf(needs, "earth", medium);
-  EXPECT_EQ(plan.tableDesc.moments.depthMu, 128u);
+  EXPECT_EQ(plan.tables.moments.depthMu, 128u);
   EXPECT_LE(plan.cost.units, plan.whole.units / 4);
   uint64_t tables = 0;
   for (uint32_t i = 0; i < plan.tableCount; ++i)
@@ -69,8 +69,8 @@ TEST(Plan, AnythingHasEverything) {
   needs.occluders = true;
   const Plan plan = planOf(needs);
   for (uint32_t i = 0; i < kEffectCount; ++i)
-    EXPECT_TRUE(plan.effects[i].on) << plan.effects[i].reason;
-  EXPECT_EQ(plan.tableDesc.sunZenithTo, 0.0);
+    EXPECT_TRUE(plan.choices[i].on) << plan.choices[i].reason;
+  EXPECT_EQ(plan.tables.sunZenithTo, 0.0);
 }
 
 TEST(Plan, AirDecides) {
@@ -81,7 +81,7 @@ TEST(Plan, AirDecides) {
 
 TEST(Plan, EveryReasonIsASentence) {
   const Plan plan = planOf(noon());
-  for (const EffectChoice& choice : plan.effects) {
+  for (const PlanChoice& choice : plan.effects) {
     const std::string reason = choice.reason;
     ASSERT_FALSE(reason.empty());
     EXPECT_EQ(reason.back(), '.') << reason;
@@ -99,12 +99,12 @@ TEST(Plan, MoreNeedsNeverGiveLess) {
     few.altitudeTo_m = 1.0 + 1e5 * unit(random);
     few.sunElevationFrom = (-60.0 + 120.0 * unit(random)) * kDegree;
     few.sunElevationTo = few.sunElevationFrom + 20.0 * unit(random) * kDegree;
-    few.seen = 1 + static_cast<SeenFlags>(30.0 * unit(random));
+    few.seen = 1 + static_cast<VisibilityFlags>(30.0 * unit(random));
     few.error = 0.05;
     Needs more = few;
     more.altitudeTo_m *= 1.0 + unit(random);
     more.sunElevationFrom -= 10.0 * unit(random) * kDegree;
-    more.seen |= kSeenGround;
+    more.seen |= kVisibleGround;
     more.error = 0.05 * (0.1 + 0.9 * unit(random));
     const Plan a = planOf(few), b = planOf(more);
     for (uint32_t e = 0; e < kEffectCount; ++e)

@@ -30,7 +30,7 @@ using DeviceFeatureFlags = uint32_t;
 
 /// What a device must offer and a host must enable.
 struct Requirements {
-  uint32_t apiVersion = 0;  ///< Least VkApplicationInfo::apiVersion and device version.
+  uint32_t apiVersion = 0;           ///< Least VkApplicationInfo::apiVersion and device version.
   CapabilityFlags capabilities = 0;  ///< Of those asked for, the ones that this device has.
   DeviceFeatureFlags deviceFeatures = 0;
   VkPhysicalDeviceFeatures features = {};  ///< Core features that must be enabled.

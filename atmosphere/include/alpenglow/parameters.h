@@ -66,8 +66,8 @@ struct Preset {
 /// All presets, static. `count` may be null.
 ALPENGLOW_API const Preset* presets(uint32_t* count);
 
-/// Fills `out` with the preset called `name`. InvalidArgument, with a sentence that lists the names,
-/// when there is none.
+/// Fills `out` with the preset called `name`. InvalidArgument, with a sentence that lists the
+/// names, when there is none.
 ALPENGLOW_API Status findPreset(const char* name, Parameters* out, const DiagnosticSink& sink);
 
 /// Checks every field. InvalidArgument with one sentence that names the field as atmosphere files

@@ -40,8 +40,8 @@ struct ReferenceOptions {
   /// degrees; 0: 1e-3. Three times as much is allowed down to -6 degrees, five times down to -12,
   /// ten times below; see bandSunElevation().
   double targetError = 0.0;
-  uint64_t maxSamples = 0;  ///< Where to stop short of the target; 0: 2^19.
-  uint64_t seed = 0;        ///< Each gives other random numbers.
+  uint64_t maxSamples = 0;            ///< Where to stop short of the target; 0: 2^19.
+  uint64_t seed = 0;                  ///< Each gives other random numbers.
   ParallelFor parallelFor = nullptr;  ///< Null: all work on the calling thread.
   void* parallelUser = nullptr;
 };

@@ -38,8 +38,9 @@ struct TerrainDesc {
 };
 
 struct TerrainVertex {
-  float position[3] = {};  ///< Metres from TerrainPlace::origin_m, axes parallel to the planet's frame.
-  float normal[3] = {};    ///< Unit, outwards.
+  float position[3] =
+      {};  ///< Metres from TerrainPlace::origin_m, axes parallel to the planet's frame.
+  float normal[3] = {};  ///< Unit, outwards.
   /// From 0 to 1 over an image of the field: column c, row r is ((c + 1/2) / width,
   /// (r + 1/2) / height), the middle of its texel in an image of the field's size.
   float uv[2] = {};
@@ -74,10 +75,11 @@ ALPENGLOW_API Status terrainSize(const TerrainDesc& desc, TerrainSize* out,
 /// the sphere, along its own vertical. Computed in double, rounded once. Normals are those of
 /// central differences on the bent surface, one-sided at the border.
 ///
-/// InvalidArgument with a sentence to `sink`, nothing written, for null arrays, heights or values that are not finite, fewer than 2x2 points, more than kMaxMeshIndices indices, a spacing
-/// that is not above 0 or too small for single precision at this distance from the origin, a field
-/// whose half diagonal is beyond 1/4 pi radius_m or that rises higher than radius_m, negative
-/// scales and widths, a skirt deeper than half of radius_m. Allocates nothing. Thread-safe.
+/// InvalidArgument with a sentence to `sink`, nothing written, for null arrays, heights or values
+/// that are not finite, fewer than 2x2 points, more than kMaxMeshIndices indices, a spacing that is
+/// not above 0 or too small for single precision at this distance from the origin, a field whose
+/// half diagonal is beyond 1/4 pi radius_m or that rises higher than radius_m, negative scales and
+/// widths, a skirt deeper than half of radius_m. Allocates nothing. Thread-safe.
 ALPENGLOW_API Status buildTerrain(const TerrainDesc& desc, TerrainVertex* vertices,
                                   uint32_t* indices, TerrainPlace* place,
                                   const DiagnosticSink& sink);

@@ -15,11 +15,11 @@ inline namespace v1 {
 /// Result of every call that can fail. Ok is 0, so `if (status != Status::Ok)` reads naturally.
 enum class Status : int32_t {
   Ok = 0,
-  NotReady,           ///< Tables are not baked, or beginFrame of this frame failed. Not an error: no
-                      ///< sentence is reported.
-  InvalidArgument,    ///< The caller's values are wrong; the object is as it was before the call.
-  Unsupported,        ///< The device, its enabled features or this version can't do what was asked.
-  OutOfHostMemory,    ///< VK_ERROR_OUT_OF_HOST_MEMORY, or an allocation of the library failed.
+  NotReady,         ///< Tables are not baked, or beginFrame of this frame failed. Not an error: no
+                    ///< sentence is reported.
+  InvalidArgument,  ///< The caller's values are wrong; the object is as it was before the call.
+  Unsupported,      ///< The device, its enabled features or this version can't do what was asked.
+  OutOfHostMemory,  ///< VK_ERROR_OUT_OF_HOST_MEMORY, or an allocation of the library failed.
   OutOfDeviceMemory,  ///< VK_ERROR_OUT_OF_DEVICE_MEMORY, or the host's memory hook refused.
   DeviceLost,         ///< VK_ERROR_DEVICE_LOST; destroying objects stays legal.
   VulkanError,        ///< Any other VkResult below zero; Diagnostic::result has it.
@@ -42,14 +42,15 @@ struct Diagnostic {
 using DiagnosticFn = void (*)(void* user, const Diagnostic& diagnostic);
 
 /// Where sentences go: that of the context for every call that knows one, else the one that a
-/// function takes. A null `report` discards them. Every failing call reports one Error. A warning is
-/// reported once for each object.
+/// function takes. A null `report` discards them. Every failing call reports one Error. A warning
+/// is reported once for each object.
 struct DiagnosticSink {
   DiagnosticFn report = nullptr;
   void* user = nullptr;
 };
 
-/// An image of the host's. It stays the host's and lives until the frames that use it have completed.
+/// An image of the host's. It stays the host's and lives until the frames that use it have
+/// completed.
 struct HostImage {
   VkImageView view = VK_NULL_HANDLE;                 ///< Null: none.
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< While our commands execute; 0: the default
@@ -59,8 +60,8 @@ struct HostImage {
 };
 
 /// An image of ours, in the state in which the last recorded call leaves it: `layout`, written by
-/// `stage` and `access`, and already made visible to the reader stages of its owner, so that a later
-/// reader on the same queue needs no barrier.
+/// `stage` and `access`, and already made visible to the reader stages of its owner, so that a
+/// later reader on the same queue needs no barrier.
 struct ImageInfo {
   const char* name = nullptr;  ///< Static. Null: this object has no such image.
   VkImage image = VK_NULL_HANDLE;
@@ -96,15 +97,15 @@ struct MemoryRange {
   void* mapped = nullptr;  ///< First byte of the range, where it is mapped.
 };
 
-/// Optional: the host's allocator (VMA or its own) serves our few memory blocks. Both functions must
-/// be thread-safe. Ranges may share a VkDeviceMemory: memory of a hook is never mapped or unmapped
-/// here. A host that sub-allocates keeps bufferImageGranularity between ranges with images and
-/// ranges with buffers (those asked for with `mustMap` hold buffers only).
+/// Optional: the host's allocator (VMA or its own) serves our few memory blocks. Both functions
+/// must be thread-safe. Ranges may share a VkDeviceMemory: memory of a hook is never mapped or
+/// unmapped here. A host that sub-allocates keeps bufferImageGranularity between ranges with images
+/// and ranges with buffers (those asked for with `mustMap` hold buffers only).
 struct MemoryHooks {
   void* user = nullptr;
   /// Fills `range` with memory of type `memoryTypeIndex`, at least `requirements.size` bytes, at a
-  /// multiple of `requirements.alignment`. With `mustMap` the type is host-visible and coherent, and
-  /// the range stays mapped until it is freed. `name` says what the memory is for.
+  /// multiple of `requirements.alignment`. With `mustMap` the type is host-visible and coherent,
+  /// and the range stays mapped until it is freed. `name` says what the memory is for.
   VkResult (*allocate)(void* user, const VkMemoryRequirements& requirements,
                        uint32_t memoryTypeIndex, bool mustMap, const char* name,
                        MemoryRange* range) = nullptr;
