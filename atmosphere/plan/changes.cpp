@@ -24,8 +24,9 @@ bool coversSun(const Plan& plan, const PlanRequest& request) {
 }
 
 bool coversScene(const Plan& plan, const PlanRequest& request) {
-  for (const VisibilityFlag what :
-       {kVisibleSky, kVisibleGround, kVisibleScene, kVisibleSpace, kVisibleSun}) {
+  constexpr VisibilityFlag kAll[] = {kVisibleSky, kVisibleGround, kVisibleScene, kVisibleSpace,
+                                     kVisibleSun};
+  for (const VisibilityFlag what : kAll) {
     if (plan::sees(request, what) && !plan::sees(plan.request, what)) return false;
   }
   const bool disc = request.sunDiscRadius > 0.0 && plan.request.sunDiscRadius == 0.0;

@@ -83,8 +83,7 @@ TEST_F(StandardSkyTest, ForgottenObjectsAreReported) {
   ASSERT_NE(other, nullptr);
   const ContextDesc plain = contextDesc();
   ContextDesc desc = other->contextDesc();
-  desc.diagnostic = plain.diagnostic;
-  desc.user = plain.user;
+  desc.diagnostics = plain.diagnostics;
   Context* made = nullptr;
   ASSERT_EQ(createContext(desc, &made), Status::Ok);
   static View* forgotten = nullptr;  // So that a leak checker still finds what it holds.

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "tests/model/heard.h"
+
 namespace alpenglow {
 namespace {
 
@@ -61,18 +63,18 @@ static_assert(std::size(kScenes) >= 20);
 
 Plan planOf(const Described& scene) {
   Parameters parameters;
-  EXPECT_EQ(findPreset(scene.air, &parameters), Status::Ok);
-  Needs needs;
-  needs.altitudeTo_m = scene.altitudeTo_m;
-  needs.sunElevationFrom = scene.sunFrom * kDegree;
-  needs.sunElevationTo = scene.sunTo * kDegree;
-  needs.seen = scene.seen;
-  needs.occluders = scene.occluders;
-  needs.error = scene.error;
-  needs.sunDiscRadius = (scene.seen & kVisibleSun) != 0 ? 0.0047 : 0.0;
+  EXPECT_EQ(findPreset(scene.air, &parameters, {}), Status::Ok);
+  PlanRequest request;
+  request.altitudeTo_m = scene.altitudeTo_m;
+  request.sunElevationFrom = scene.sunFrom * kDegree;
+  request.sunElevationTo = scene.sunTo * kDegree;
+  request.visible = scene.seen;
+  request.casters = scene.occluders;
+  request.errorTarget = scene.error;
+  request.sunDiscRadius = (scene.seen & kVisibleSun) != 0 ? 0.0047 : 0.0;
   Plan plan;
-  char message[320] = "";
-  EXPECT_EQ(makePlan(parameters, needs, {}, &plan, message, sizeof message), Status::Ok) << message;
+  testing::Heard heard;
+  EXPECT_EQ(makePlan(parameters, request, &plan, heard.sink()), Status::Ok) << heard.sentence;
   return plan;
 }
 
@@ -102,7 +104,7 @@ TEST(DescribedScenes, HaveWhatTheyCallForAndNothingElse) {
 TEST(DescribedScenes, FinerErrorsTakeFinerLevels) {
   const auto level = [](const char* name) {
     for (const Described& scene : kScenes)
-      if (std::string(scene.name) == name) return planOf(scene).tableDesc.quality;
+      if (std::string(scene.name) == name) return planOf(scene).tables.quality;
     return Quality::Default;
   };
   EXPECT_EQ(level("mobile, coarse"), Quality::Draft);
