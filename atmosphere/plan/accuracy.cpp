@@ -208,6 +208,7 @@ void setQuality(const Parameters& parameters, Quality quality, Plan* plan) {
 
 void decideQuality(const Parameters& parameters, Plan* plan) {
   const TableDesc& base = plan->request.tables;
+  plan->errorMet = true;  // Of other solvers none is expected.
   if (base.solver != Solver::Moments) return;
   if (base.quality != Quality::Default) return setQuality(parameters, base.quality, plan);
   // Without a target at most the default level.

@@ -90,9 +90,9 @@ struct Plan {
   bool budgetMet = false;
   PlanCost cost;   ///< Of all of it.
   PlanCost whole;  ///< Of the default: everything, everywhere, at the default quality.
-  PlanChoice choices[kMaxPlanChoices] = {};
-  uint32_t choiceCount = 0;               ///< kEffectCount and more.
-  ImageInfo images[kMaxPlanImages] = {};  ///< That stay: name, extent, bytes; the rest is zero.
+  PlanChoice choices[kMaxPlanChoices];
+  uint32_t choiceCount = 0;          ///< kEffectCount and more.
+  ImageInfo images[kMaxPlanImages];  ///< That stay: name, extent, bytes; the rest is zero.
   uint32_t imageCount = 0;
 };
 
