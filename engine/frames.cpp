@@ -29,6 +29,12 @@ void FrameList::abandon(uint64_t frame) {
     object->frameAbandoned(frame);
 }
 
+void FrameList::announceDestruction(const FrameObject* gone) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (FrameObject* object = newest_; object != nullptr; object = object->previous_)
+    if (object != gone) object->objectDestroyed(gone);
+}
+
 void FrameList::destroyAll() {
   while (newest_ != nullptr) newest_->destroyNow();
 }

@@ -23,6 +23,8 @@ class FrameObject {
   virtual void frameCompleted(uint64_t completed) = 0;
   /// What was recorded in `frame` will never execute.
   virtual void frameAbandoned(uint64_t frame) = 0;
+  /// Another object is about to go.
+  virtual void objectDestroyed(const FrameObject*) {}
   /// Destroys the object; the device has finished with it.
   virtual void destroyNow() = 0;
 
@@ -44,6 +46,8 @@ class FrameList {
   /// The numbers are checked by the caller.
   void advance(uint64_t submitting, uint64_t completed);
   void abandon(uint64_t frame);
+  /// Tells all others that this one is about to go.
+  void announceDestruction(const FrameObject* object);
   /// Destroys all objects, the newest first.
   void destroyAll();
 

@@ -1,33 +1,58 @@
 #include "atmosphere/shafts/caster_pass.h"
 
+#include "atmosphere/sky/world.h"
 #include "engine/pipeline.h"
 
 namespace alpenglow {
 namespace shafts {
 
-void drawCasters(const CasterPass& pass, VkPipeline pipeline, const VkRect2D& area,
-                 const Casters& casters) {
-  const engine::Dispatch& vk = pass.device->vk();
-  engine::setArea(*pass.device, pass.commands, area);
-  vk.CmdBindPipeline(pass.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-  const double centre[3] = {};
-  placeCaster(&pass, centre, nullptr);
-  casters.draw(casters.user, pass.commands, &pass);
-  ++pass.device->counters().draws;
+void drawCasters(VkCommandBuffer commands, const CasterTarget& target, LightShaftMethod method,
+                 const double origin_m[3], const double clipFromOrigin[16], VkPipeline pipeline,
+                 const VkRect2D& area, const CasterSet& casters) {
+  engine::Device& device = *target.device;
+  const sky::Placement placement(casters.world);
+  CasterPass pass;
+  pass.method = method;
+  pass.extent = area.extent;
+  placement.toWorld(origin_m, pass.origin);
+  // Columns of the world's axes, then the origin's.
+  for (int row = 0; row < 4; ++row) {
+    for (int axis = 0; axis < 3; ++axis) {
+      double sum = 0.0;
+      for (int i = 0; i < 3; ++i) sum += clipFromOrigin[4 * i + row] * placement.axes[axis][i];
+      pass.clipFromOrigin[4 * axis + row] = static_cast<float>(sum);
+    }
+    pass.clipFromOrigin[12 + row] = static_cast<float>(clipFromOrigin[12 + row]);
+  }
+  pass.internal = &target;
+  engine::setArea(device, commands, area);
+  device.vk().CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+  const double origin[3] = {};
+  placeCaster(pass, commands, origin, nullptr);
+  if (casters.draw != nullptr) casters.draw(casters.user, commands, pass);
+  ++device.counters().draws;
 }
 
 }  // namespace shafts
 
 inline namespace v1 {
 
-void placeCaster(const CasterPass* pass, const double origin_m[3], const float rotation[9]) {
+void placeCaster(const CasterPass& pass, VkCommandBuffer commands, const double origin[3],
+                 const float rotation[9]) {
+  const auto* target = static_cast<const shafts::CasterTarget*>(pass.internal);
+  if (target == nullptr || commands == VK_NULL_HANDLE || origin == nullptr) return;
+  const sky::Placement placement(*target->world);
+  double origin_m[3];
+  placement.toPlanet(origin, origin_m);
+  float turned[9];
+  placement.rotateRows(rotation, turned);
   float rows[3][4];
-  if (pass->map != nullptr)
-    shafts::rowsOnMap(*pass->map, origin_m, rotation, rows);
+  if (target->map != nullptr)
+    shafts::rowsOnMap(*target->map, origin_m, turned, rows);
   else
-    shafts::rowsFromEye(pass->eye, origin_m, rotation, rows);
-  pass->device->vk().CmdPushConstants(pass->commands, pass->layout, shafts::kPlaceRange.stageFlags,
-                                      0, sizeof rows, rows);
+    shafts::rowsFromEye(target->eye, origin_m, turned, rows);
+  target->device->vk().CmdPushConstants(commands, target->layout, shafts::kPlaceRange.stageFlags, 0,
+                                        sizeof rows, rows);
 }
 
 }  // namespace v1

@@ -1,32 +1,28 @@
-// What placeCaster needs to know of the pass that a host draws its casters in.
+// Passes in which a host draws its casters, and what placeCaster needs to know of them.
 #pragma once
 
 #include "atmosphere/shafts/shaft_frame.h"
 #include "engine/device.h"
 
-namespace alpenglow {
+namespace alpenglow::shafts {
 
-inline namespace v1 {
-
-struct CasterPass {
+/// What CasterPass::internal points to.
+struct CasterTarget {
   engine::Device* device = nullptr;
-  VkCommandBuffer commands = VK_NULL_HANDLE;
   VkPipelineLayout layout = VK_NULL_HANDLE;
-  const shafts::SunMapPlace* map = nullptr;  ///< Else metres from the eye.
+  const SunMapPlace* map = nullptr;  ///< Else metres from the eye.
   const double* eye = nullptr;
+  const World* world = nullptr;
 };
-
-}  // namespace v1
-
-namespace shafts {
 
 /// Push constants of place.glsl.
 inline constexpr VkPushConstantRange kPlaceRange = {VK_SHADER_STAGE_VERTEX_BIT, 0, 48};
 
-/// Sets viewport and scissor, binds, places casters at the planet's centre until the host says
-/// otherwise, and calls it.
-void drawCasters(const CasterPass& pass, VkPipeline pipeline, const VkRect2D& area,
-                 const Casters& casters);
+/// Sets viewport and scissor, binds, places casters at the world's origin until the host says
+/// otherwise, and calls it. `clipFromOrigin`: column-major, from metres off `origin_m`, both in the
+/// planet frame.
+void drawCasters(VkCommandBuffer commands, const CasterTarget& target, LightShaftMethod method,
+                 const double origin_m[3], const double clipFromOrigin[16], VkPipeline pipeline,
+                 const VkRect2D& area, const CasterSet& casters);
 
-}  // namespace shafts
-}  // namespace alpenglow
+}  // namespace alpenglow::shafts

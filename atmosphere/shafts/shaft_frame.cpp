@@ -47,7 +47,7 @@ void row(const double axis[3], const double from[3], const double origin[3],
 
 }  // namespace
 
-SunMapPlace placeSunMap(const Box& bounds, const double sun[3], uint32_t texels) {
+SunMapPlace placeSunMap(const PlanetBox& bounds, const double sun[3], uint32_t texels) {
   SunMapPlace map;
   std::copy_n(bounds.center_m, 3, map.center);
   std::copy_n(sun, 3, map.sun);
@@ -98,9 +98,20 @@ void rowsOnMap(const SunMapPlace& map, const double origin[3], const float rotat
   row(map.sun, map.center, origin, rotation, -0.5 / map.halfDepth, 0.5, rows[2]);
 }
 
-ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,
-                          const SunMapPlace& map, const SkyDraw& draw) {
-  const Camera& camera = draw.camera;
+void clipFromMap(const SunMapPlace& map, double matrix[16]) {
+  std::fill_n(matrix, 16, 0.0);
+  for (int i = 0; i < 3; ++i) {
+    matrix[4 * i] = map.u[i] / map.halfU;
+    matrix[4 * i + 1] = map.v[i] / map.halfV;
+    matrix[4 * i + 2] = -0.5 * map.sun[i] / map.halfDepth;
+  }
+  matrix[14] = 0.5;
+  matrix[15] = 1.0;
+}
+
+ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftSettings& desc,
+                          const SunMapPlace& map, const FrameState& draw) {
+  const EyeCamera& camera = draw.camera;
   const double r = sky::cameraRadius(camera);
   const double rg = parameters.bottomRadius_m, rt = parameters.topRadius_m;
   const sky::PictureEdges edges = sky::pictureEdges(desc.projection, draw);
@@ -115,7 +126,7 @@ ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,
   store(frame.downOffsetY, edges.down, 1.0, draw.viewport.offset.y);
   store(frame.sunRange, draw.sun.direction, 1.0, 2.0 * map.halfDepth);
 
-  const double half = 0.5 * desc.sunMapSize;
+  const double half = 0.5 * desc.shadowMapSize;
   const double fromCenter[3] = {camera.position_m[0] - map.center[0],
                                 camera.position_m[1] - map.center[1],
                                 camera.position_m[2] - map.center[2]};
@@ -128,7 +139,7 @@ ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,
 
   // From one side of the air to the other, past the ground.
   const double longest = 2.0 * std::sqrt((rt - rg) * (rt + rg)) + 4.0 * map.halfDepth;
-  const double size[3] = {double(desc.sunMapSize), longest, r};
+  const double size[3] = {double(desc.shadowMapSize), longest, r};
   store(frame.map, size, 1.0, reliefStep(desc));
   double corner[3];
   for (int i = 0; i < 3; ++i) {
@@ -140,7 +151,7 @@ ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,
   store(frame.columnStep, map.v, 1.0, 0.0);
   frame.pixels[0] = 2.0f / static_cast<float>(draw.viewport.extent.width);
   frame.pixels[1] = 2.0f / static_cast<float>(draw.viewport.extent.height);
-  frame.pixels[2] = static_cast<float>(desc.method);
+  frame.pixels[2] = static_cast<float>(methodIndex(desc.method));
   frame.pixels[3] = desc.projection == Projection::Orthographic ? 1.0f : 0.0f;
 
   const sky::AirLookup air = sky::airLookup(parameters, draw);

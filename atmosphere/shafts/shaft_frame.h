@@ -1,7 +1,7 @@
 // Where the map from the sun lies, and what a frame's shaders know of it and of the camera.
 #pragma once
 
-#include <alpenglow/shafts.h>
+#include "atmosphere/sky/picture.h"
 
 namespace alpenglow::shafts {
 
@@ -12,7 +12,7 @@ struct SunMapPlace {
   double halfU = 1.0, halfV = 1.0, halfDepth = 1.0;  ///< Metres.
 };
 /// The least box; `texels` on a side, of which two at each edge are left free.
-SunMapPlace placeSunMap(const Box& bounds, const double sun[3], uint32_t texels);
+SunMapPlace placeSunMap(const PlanetBox& bounds, const double sun[3], uint32_t texels);
 
 /// std140 of AlpenglowShaftFrame in shaders/glsl/alpenglow/shafts.glsl, which says what each is.
 struct ShaftFrame {
@@ -36,25 +36,32 @@ struct ShaftFrame {
 };
 static_assert(sizeof(ShaftFrame) == 320, "As std140 lays it out");
 
+/// As the shaders count methods: alpenglow/shafts.glsl.
+constexpr uint32_t methodIndex(LightShaftMethod method) {
+  return static_cast<uint32_t>(method) - 1;
+}
+
 /// Cells on a side of a block: alpenglow/shafts.glsl.
 inline constexpr uint32_t kShaftBlock = 16;
 /// Texels from vertex to vertex of the relief.
-constexpr uint32_t reliefStep(const ShaftsDesc& desc) {
-  return (desc.sunMapSize + desc.reliefSize - 1) / desc.reliefSize;
+constexpr uint32_t reliefStep(const ShaftSettings& desc) {
+  return (desc.shadowMapSize + desc.meshSize - 1) / desc.meshSize;
 }
 /// Blocks on a side of it.
-constexpr uint32_t blocksAcross(const ShaftsDesc& desc) {
+constexpr uint32_t blocksAcross(const ShaftSettings& desc) {
   const uint32_t step = reliefStep(desc);
-  return ((desc.sunMapSize - 2 + step) / step - 1) / kShaftBlock + 1;
+  return ((desc.shadowMapSize - 2 + step) / step - 1) / kShaftBlock + 1;
 }
 
 /// Everything is computed in double and rounded once.
-ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftsDesc& desc,
-                          const SunMapPlace& map, const SkyDraw& draw);
+ShaftFrame makeShaftFrame(const Parameters& parameters, const ShaftSettings& desc,
+                          const SunMapPlace& map, const FrameState& draw);
 
 /// Three rows that take local positions of a caster (placeCaster) to metres from `eye`.
 void rowsFromEye(const double eye[3], const double origin[3], const float rotation[9],
                  float rows[3][4]);
+/// Onto the map, from metres off its centre: column-major, to clip space.
+void clipFromMap(const SunMapPlace& map, double matrix[16]);
 /// Or onto the map: coordinates in [-1, 1], and depth.
 void rowsOnMap(const SunMapPlace& map, const double origin[3], const float rotation[9],
                float rows[3][4]);

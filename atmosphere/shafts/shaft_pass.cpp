@@ -8,23 +8,21 @@
 
 #include <algorithm>
 #include <limits>
-#include <new>
 
 #include "atmosphere/bake/effect_constants.h"
 #include "atmosphere/sky/air_set.h"
+#include "atmosphere/sky/projection.h"
 #include "atmosphere/sky/shader_choice.h"
 #include "engine/barriers.h"
 #include "engine/structure.h"
 
-namespace alpenglow {
-inline namespace v1 {
+namespace alpenglow::shafts {
 namespace {
 
 constexpr ImageState kBlended = {
     VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
     VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
 
-constexpr VkShaderStageFlags kCompute = VK_SHADER_STAGE_COMPUTE_BIT;
 constexpr VkShaderStageFlags kMapStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 constexpr VkDescriptorSetLayoutBinding sampled(uint32_t binding, VkShaderStageFlags stages) {
   return {binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages, nullptr};
@@ -45,66 +43,68 @@ VkFormat sumFormat(const engine::Device& device) {
 
 }  // namespace
 
-Status Shafts::create(bake::Resources& resources, const ShaftsDesc& desc, Shafts** out) {
-  *out = nullptr;
-  auto* shafts = new (std::nothrow) Shafts(resources, desc);
-  if (shafts == nullptr) {
-    return resources.device().fail(Status::OutOfHostMemory, VK_SUCCESS,
-                                   "Light shafts found no host memory.");
-  }
-  ++resources.live().views;
-  const Status status = shafts->make();
-  if (status != Status::Ok) {
-    destroy(shafts, 0);  // Nothing was recorded with it: frame 0 has always completed.
-    return status;
-  }
-  *out = shafts;
-  return Status::Ok;
-}
-
-void Shafts::destroy(Shafts* shafts, uint64_t frame) {
-  if (shafts == nullptr) return;
-  --shafts->resources_.live().views;
-  engine::Device& device = shafts->device_;
-  engine::DeletionQueue& deletions = device.deletions();
-  const auto defer = [&](VkObjectType type, auto handle) {
-    deletions.defer(frame, type, engine::handleNumber(handle));
-  };
-  defer(VK_OBJECT_TYPE_PIPELINE, shafts->pipeline_);
-  defer(VK_OBJECT_TYPE_PIPELINE, shafts->volumePipeline_);
-  defer(VK_OBJECT_TYPE_PIPELINE, shafts->cullPipeline_);
-  defer(VK_OBJECT_TYPE_PIPELINE_LAYOUT, shafts->layout_);
-  defer(VK_OBJECT_TYPE_PIPELINE_LAYOUT, shafts->cullLayout_);
-  defer(VK_OBJECT_TYPE_DESCRIPTOR_POOL, shafts->pool_);
-  defer(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, shafts->setLayout_);
-  defer(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, shafts->airLayout_);
-  for (engine::Image& image : shafts->targets_)
-    engine::deferImage(device, frame, &image);
-  engine::deferBuffer(device, frame, &shafts->frame_);
-  engine::deferBuffer(device, frame, &shafts->blocks_);
-  engine::deferBlock(device, frame, &shafts->memory_);
-  shafts->map_.destroy(frame);
-  delete shafts;
-  deletions.collect(device.completed());
-}
-
-Status Shafts::make() {
+Status LightShaftPass::make(const ShaftSettings& desc, VkShaderStageFlags stages) {
+  desc_ = desc;
+  stages_ = stages;
   Status status = mapped() ? map_.make(desc_) : Status::Ok;
-  if (status == Status::Ok) status = makeTargets();
-  if (status == Status::Ok) status = makeSet();
-  if (status == Status::Ok && desc_.method != ShaftMethod::March) status = makePipelines();
+  if (status == Status::Ok) status = makeBuffers();
+  if (status == Status::Ok) status = makeLayout();
+  if (status == Status::Ok && desc_.method != LightShaftMethod::RayMarch) status = makePipelines();
   if (status == Status::Ok && exact()) status = makeCulling();
   return status;
 }
 
-Status Shafts::makeTargets() {
+void LightShaftPass::destroy(uint64_t frame) {
+  engine::DeletionQueue& deletions = device_.deletions();
+  const auto defer = [&](VkObjectType type, auto handle) {
+    deletions.defer(frame, type, engine::handleNumber(handle));
+  };
+  defer(VK_OBJECT_TYPE_PIPELINE, pipeline_);
+  defer(VK_OBJECT_TYPE_PIPELINE, lutPipeline_);
+  defer(VK_OBJECT_TYPE_PIPELINE, cullPipeline_);
+  defer(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout_);
+  defer(VK_OBJECT_TYPE_PIPELINE_LAYOUT, cullLayout_);
+  dropTargets(frame);
+  defer(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, setLayout_);
+  defer(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, lutLayout_);
+  engine::deferBuffer(device_, frame, &frame_);
+  engine::deferBuffer(device_, frame, &blocks_);
+  engine::deferBlock(device_, frame, &bufferMemory_);
+  map_.destroy(frame);
+}
+
+void LightShaftPass::dropTargets(uint64_t frame) {
+  device_.deletions().defer(frame, VK_OBJECT_TYPE_DESCRIPTOR_POOL, engine::handleNumber(pool_));
+  pool_ = VK_NULL_HANDLE;
+  set_ = VK_NULL_HANDLE;
+  for (engine::Image& image : targets_) {
+    engine::deferImage(device_, frame, &image);
+    image = {};
+  }
+  engine::deferBlock(device_, frame, &targetMemory_);
+  targetMemory_ = {};
+  targetCount_ = 0;
+  extent_ = {};
+}
+
+Status LightShaftPass::resize(VkExtent2D scene) {
+  if (scene.width == extent_.width && scene.height == extent_.height) return Status::Ok;
+  dropTargets(device_.submitting());
+  extent_ = scene;
+  Status status = makeTargets();
+  if (status == Status::Ok) status = makeSet();
+  if (status != Status::Ok) dropTargets(device_.submitting());
+  return status;
+}
+
+Status LightShaftPass::makeBuffers() {
   Status status =
-      engine::createBuffer(device_, sizeof(shafts::ShaftFrame),
+      engine::createBuffer(device_, sizeof(ShaftFrame),
                            VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
                                VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                            "Alpenglow shaft frame", &frame_);
   if (status != Status::Ok) return status;
-  const uint32_t side = shafts::blocksAcross(desc_);
+  const uint32_t side = blocksAcross(desc_);
   if (exact()) {
     status = engine::createBuffer(device_, kBlocksHead + VkDeviceSize{4} * side * side,
                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
@@ -113,43 +113,60 @@ Status Shafts::makeTargets() {
                                   "Alpenglow shaft blocks", &blocks_);
     if (status != Status::Ok) return status;
   }
-  const bool paper = desc_.method == ShaftMethod::Paper;
-  const uint32_t count = paper ? 2 : exact() ? 1 : 0;
+  engine::Buffer* buffers[] = {&frame_, &blocks_};
+  return engine::allocateAndBind(device_, "Alpenglow shafts", VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                 nullptr, 0, buffers, exact() ? 2 : 1, &bufferMemory_);
+}
+
+VkFormat LightShaftPass::targetFormat() const {
+  return desc_.method == LightShaftMethod::ShadowVolume ? VK_FORMAT_R32G32_SFLOAT
+                                                        : sumFormat(device_);
+}
+
+Status LightShaftPass::makeTargets() {
   engine::Image* images[] = {&targets_[0], &targets_[1]};
-  for (uint32_t i = 0; i < count; ++i) {
+  for (uint32_t i = 0; i < wantedTargets(); ++i) {
     engine::ImageDesc image;
-    image.format = paper ? VK_FORMAT_R32G32_SFLOAT : sumFormat(device_);
-    image.extent = {desc_.sceneDepth.extent.width, desc_.sceneDepth.extent.height, 1};
+    image.format = targetFormat();
+    image.extent = {extent_.width, extent_.height, 1};
     image.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
                   VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
     image.linearFilter = false;
     image.name = i == 0 ? "Alpenglow shaft sums" : "Alpenglow shaft bounds";
-    status = engine::createImage(device_, image, &targets_[i]);
+    const Status status = engine::createImage(device_, image, &targets_[i]);
     if (status != Status::Ok) return status;
     ++targetCount_;
   }
-  engine::Buffer* buffers[] = {&frame_, &blocks_};
-  return engine::allocateAndBind(device_, "Alpenglow shafts", VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
-                                 images, targetCount_, buffers, exact() ? 2 : 1, &memory_);
+  if (targetCount_ == 0) return Status::Ok;
+  return engine::allocateAndBind(device_, "Alpenglow shaft targets",
+                                 VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, images, targetCount_, nullptr,
+                                 0, &targetMemory_);
 }
 
-Status Shafts::makeSet() {
+// AlpenglowShaftFrame, shadow map, sums, bounds, blocks.
+void LightShaftPass::describeBindings(VkDescriptorSetLayoutBinding* bindings) const {
   const VkShaderStageFlags geometry =
-      desc_.method == ShaftMethod::Paper ? VK_SHADER_STAGE_GEOMETRY_BIT : 0;
-  // AlpenglowShaftFrame, the map from the sun, sums, bounds, blocks.
-  const VkDescriptorSetLayoutBinding bindings[kBindingCount] = {
-      {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, kMapStages | geometry | kCompute, nullptr},
-      sampled(1, kMapStages | geometry | kCompute),
-      sampled(2, VK_SHADER_STAGE_FRAGMENT_BIT),
-      sampled(3, VK_SHADER_STAGE_FRAGMENT_BIT),
-      {4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, kMapStages | kCompute, nullptr}};
-  Status status =
-      engine::createSetLayout(device_, bindings, kBindingCount, "Alpenglow shafts", &setLayout_);
-  if (status != Status::Ok) return status;
+      desc_.method == LightShaftMethod::ShadowVolume ? VK_SHADER_STAGE_GEOMETRY_BIT : 0;
+  bindings[0] = {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1, stages_ | kMapStages | geometry, nullptr};
+  bindings[1] = sampled(1, stages_ | kMapStages | geometry);
+  bindings[2] = sampled(2, stages_);
+  bindings[3] = sampled(3, stages_);
+  bindings[4] = {4, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, stages_ | kMapStages, nullptr};
+}
+
+Status LightShaftPass::makeLayout() {
+  VkDescriptorSetLayoutBinding bindings[kBindingCount];
+  describeBindings(bindings);
+  return engine::createSetLayout(device_, bindings, kBindingCount, "Alpenglow shafts", &setLayout_);
+}
+
+Status LightShaftPass::makeSet() {
+  VkDescriptorSetLayoutBinding bindings[kBindingCount];
+  describeBindings(bindings);
   const engine::PoolPart part = {bindings, kBindingCount, 1};
-  status = engine::createPool(device_, &part, 1, "Alpenglow shafts", &pool_);
-  if (status != Status::Ok) return status;
-  status = engine::allocateSets(device_, pool_, &setLayout_, 1, "Alpenglow shafts", &set_);
+  Status status = engine::createPool(device_, &part, 1, "Alpenglow shafts", &pool_);
+  if (status == Status::Ok)
+    status = engine::allocateSets(device_, pool_, &setLayout_, 1, "Alpenglow shafts", &set_);
   if (status != Status::Ok) return status;
   // A shader that asks for any method reads all of them: what a method lacks is another image.
   const VkImageView map = mapped() ? map_.depth().view : targets_[0].view;
@@ -165,18 +182,18 @@ Status Shafts::makeSet() {
   return writer.flush(device_);
 }
 
-Status Shafts::makePipelines() {
-  Status status = sky::createAirSetLayout(device_, &airLayout_);
+Status LightShaftPass::makePipelines() {
+  Status status = sky::createAirSetLayout(device_, stages_, &lutLayout_);
   if (status != Status::Ok) return status;
-  const VkDescriptorSetLayout sets[] = {resources_.tableLayout(), setLayout_, airLayout_};
-  status = engine::createPipelineLayout(device_, sets, 3, &shafts::kPlaceRange, 1,
+  const VkDescriptorSetLayout sets[] = {resources_.tableLayout(), setLayout_, lutLayout_};
+  status = engine::createPipelineLayout(device_, sets, 3, &kPlaceRange, 1,
                                         "Alpenglow shafts", &layout_);
   if (status == Status::Ok) status = makePipeline(false, &pipeline_);
-  if (status == Status::Ok && looksUp()) status = makePipeline(true, &volumePipeline_);
+  if (status == Status::Ok && looksUp()) status = makePipeline(true, &lutPipeline_);
   return status;
 }
 
-Status Shafts::makeCulling() {
+Status LightShaftPass::makeCulling() {
   namespace s = alpenglow::shaders;
   const Status status = engine::createPipelineLayout(device_, &setLayout_, 1, nullptr, 0,
                                                      "Alpenglow shaft blocks", &cullLayout_);
@@ -187,31 +204,31 @@ Status Shafts::makeCulling() {
   return engine::createComputePipeline(device_, desc, &cullPipeline_);
 }
 
-Status Shafts::makePipeline(bool fromVolume, VkPipeline* out) {
+Status LightShaftPass::makePipeline(bool fromLut, VkPipeline* out) {
   namespace s = alpenglow::shaders;
   const bool reversed = desc_.depth == DepthConvention::Reversed;
   engine::GraphicsPipelineDesc desc;
-  desc.colors[0] = {targets_[0].desc.format, engine::Blend::Add};
+  desc.colors[0] = {targetFormat(), engine::Blend::Add};
   if (exact()) {
     desc.vertex = {s::kShaftSurface, sizeof s::kShaftSurface, "surface.vert"};
-    desc.fragment = sky::surfaceShader(desc_.without, fromVolume);
+    desc.fragment = sky::surfaceShader(desc_.disabledEffects, fromLut);
     desc.topology = engine::Topology::TriangleStrip;
   } else {
     desc.vertex = {s::kShaftCaster, sizeof s::kShaftCaster, "caster.vert"};
     desc.geometry = {s::kShaftVolumeGeometry, sizeof s::kShaftVolumeGeometry, "volume.geom"};
     desc.fragment = {s::kShaftVolumeFragment, sizeof s::kShaftVolumeFragment, "volume.frag"};
-    desc.colors[1] = {targets_[1].desc.format, engine::Blend::Max};
+    desc.colors[1] = {targetFormat(), engine::Blend::Max};
     desc.vertices = {desc_.vertexStride, desc_.vertexOffset};
     desc.topology = engine::Topology::TrianglesWithAdjacency;
   }
   engine::SpecConstant constants[2 + bake::kEffectConstants] = {
       engine::specBool(6, desc_.projection == Projection::Orthographic),
       engine::specBool(7, reversed)};
-  std::ranges::copy(bake::effectConstants(desc_.without), constants + 2);
+  std::ranges::copy(bake::effectConstants(desc_.disabledEffects), constants + 2);
   desc.constants = constants;
   desc.constantCount = 2 + bake::kEffectConstants;
   desc.layout = layout_;
-  desc.depthFormat = desc_.sceneDepth.format;
+  desc.depthFormat = desc_.sceneDepthFormat;
   desc.stencil = false;
   desc.depthTest = true;
   desc.depthClamp = true;  // what lies beyond the far plane shadows the sky
@@ -219,36 +236,24 @@ Status Shafts::makePipeline(bool fromVolume, VkPipeline* out) {
   return engine::createGraphicsPipeline(device_, desc, out);
 }
 
-Status Shafts::recordSunMap(VkCommandBuffer commands, const double sun[3], const Casters& casters) {
-  if (!mapped()) return Status::Ok;
+Status LightShaftPass::recordShadowMap(VkCommandBuffer commands, const double sun[3],
+                                       const CasterSet& casters) {
+  if (!mapped() || map_.current(sun, casters)) return Status::Ok;
   return map_.record(commands, sun, casters);
 }
 
-Status Shafts::checkMap(const SkyDraw& draw) const {
-  if (!mapped() || std::equal(map_.sun(), map_.sun() + 3, draw.sun.direction)) return Status::Ok;
-  return device_.fail(Status::InvalidArgument, VK_SUCCESS,
-                      "recordShafts got the sun at (%g, %g, %g), but recordSunMap was called last "
-                      "for (%g, %g, %g): they must be the same.",
-                      draw.sun.direction[0], draw.sun.direction[1], draw.sun.direction[2],
-                      map_.sun()[0], map_.sun()[1], map_.sun()[2]);
-}
-
-Status Shafts::record(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw,
-                      const Casters& casters, VkDescriptorSet air) {
-  Status status = checkMap(draw);
-  if (status != Status::Ok) return status;
-  status =
-      updateFrame(commands, shafts::makeShaftFrame(tables.parameters(), desc_, map_.place(), draw));
+Status LightShaftPass::record(VkCommandBuffer commands, const Tables& tables,
+                              const FrameState& draw, const HostImage& sceneDepth,
+                              const CasterSet& casters, VkDescriptorSet lut) {
+  Status status = updateFrame(
+      commands, makeShaftFrame(tables.parameters(), desc_, map_.place(), draw));
   if (status == Status::Ok && exact()) status = cullBlocks(commands);
   if (status == Status::Ok && targetCount_ > 0)
-    status = drawShadows(commands, tables, draw, casters, air);
-  if (status != Status::Ok) return status;
-  tablesId_ = tables.id();
-  draw_ = draw;
-  return Status::Ok;
+    status = drawShadows(commands, tables, draw, sceneDepth, casters, lut);
+  return status;
 }
 
-Status Shafts::updateFrame(VkCommandBuffer commands, const shafts::ShaftFrame& frame) {
+Status LightShaftPass::updateFrame(VkCommandBuffer commands, const ShaftFrame& frame) {
   constexpr VkPipelineStageFlags2 kReaders =
       VK_PIPELINE_STAGE_2_ALL_GRAPHICS_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
   engine::Barriers barriers;
@@ -263,11 +268,11 @@ Status Shafts::updateFrame(VkCommandBuffer commands, const shafts::ShaftFrame& f
   return barriers.record(device_, commands);
 }
 
-Status Shafts::cullBlocks(VkCommandBuffer commands) {
+Status LightShaftPass::cullBlocks(VkCommandBuffer commands) {
   const engine::Dispatch& vk = device_.vk();
-  const uint32_t side = shafts::blocksAcross(desc_);
-  const uint32_t strip = 2 * shafts::kShaftBlock + 4;
-  const VkDrawIndirectCommand none = {strip * shafts::kShaftBlock, 0, 0, 0};
+  const uint32_t side = blocksAcross(desc_);
+  const uint32_t strip = 2 * kShaftBlock + 4;
+  const VkDrawIndirectCommand none = {strip * kShaftBlock, 0, 0, 0};
   vk.CmdUpdateBuffer(commands, blocks_.handle, 0, sizeof none, &none);
   engine::Barriers barriers;
   barriers.memory(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
@@ -288,7 +293,7 @@ Status Shafts::cullBlocks(VkCommandBuffer commands) {
   return barriers.record(device_, commands);
 }
 
-void Shafts::drawSurface(VkCommandBuffer commands, const SkyDraw& draw, VkPipeline pipeline) {
+void LightShaftPass::drawSurface(VkCommandBuffer commands, const FrameState& draw, VkPipeline pipeline) {
   const engine::Dispatch& vk = device_.vk();
   engine::setArea(device_, commands, draw.viewport);
   vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
@@ -296,8 +301,9 @@ void Shafts::drawSurface(VkCommandBuffer commands, const SkyDraw& draw, VkPipeli
   ++device_.counters().draws;
 }
 
-Status Shafts::drawShadows(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw,
-                           const Casters& casters, VkDescriptorSet air) {
+Status LightShaftPass::drawShadows(VkCommandBuffer commands, const Tables& tables,
+                                   const FrameState& draw, const HostImage& sceneDepth,
+                                   const CasterSet& casters, VkDescriptorSet lut) {
   engine::Barriers barriers;
   for (uint32_t i = 0; i < targetCount_; ++i) barriers.discard(targets_[i], kBlended);
   Status status = barriers.record(device_, commands);
@@ -315,8 +321,8 @@ Status Shafts::drawShadows(VkCommandBuffer commands, const Tables& tables, const
   }
   auto depth =
       engine::structure<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
-  depth.imageView = desc_.sceneDepth.view;
-  depth.imageLayout = desc_.sceneDepth.layout;
+  depth.imageView = sceneDepth.view;
+  depth.imageLayout = sceneDepth.layout;
   depth.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
   depth.storeOp = VK_ATTACHMENT_STORE_OP_NONE;
   auto rendering = engine::structure<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
@@ -327,38 +333,28 @@ Status Shafts::drawShadows(VkCommandBuffer commands, const Tables& tables, const
   rendering.pDepthAttachment = &depth;
 
   const engine::Dispatch& vk = device_.vk();
-  const VkDescriptorSet sets[] = {tables.descriptorSet(), set_, air};
+  const VkDescriptorSet sets[] = {tables.descriptorSet(), set_, lut};
   vk.CmdBeginRendering(commands, &rendering);
-  const bool lookUp = looksUp() && air != VK_NULL_HANDLE;
+  const bool lookUp = looksUp() && lut != VK_NULL_HANDLE;
   vk.CmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_, 0, lookUp ? 3 : 2,
                            sets, 0, nullptr);
-  const VkPipeline pipeline = lookUp ? volumePipeline_ : pipeline_;
+  const VkPipeline pipeline = lookUp ? lutPipeline_ : pipeline_;
   if (exact()) {
     drawSurface(commands, draw, pipeline);
   } else {
-    CasterPass pass;
-    pass.device = &device_;
-    pass.commands = commands;
-    pass.layout = layout_;
-    pass.eye = draw.camera.position_m;
-    shafts::drawCasters(pass, pipeline, draw.viewport, casters);
+    CasterTarget target;
+    target.device = &device_;
+    target.layout = layout_;
+    target.eye = draw.camera.position_m;
+    target.world = &casters.world;
+    double clip[16];
+    sky::clipFromCamera(desc_.projection, desc_.depth, draw, clip);
+    drawCasters(commands, target, desc_.method, draw.camera.position_m, clip, pipeline,
+                draw.viewport, casters);
   }
   vk.CmdEndRendering(commands);
   for (uint32_t i = 0; i < targetCount_; ++i) barriers.image(targets_[i], engine::kFragmentSampled);
   return barriers.record(device_, commands);
 }
 
-bool Shafts::serves(const Tables& tables, const SkyDraw& draw) const {
-  const auto same = [](const double a[3], const double b[3]) { return std::equal(a, a + 3, b); };
-  const Camera &a = draw_.camera, &b = draw.camera;
-  const VkRect2D &p = draw_.viewport, &q = draw.viewport;
-  return tablesId_ == tables.id() && same(a.position_m, b.position_m) &&
-         same(a.forward, b.forward) && same(a.up, b.up) && a.fov == b.fov &&
-         a.height_m == b.height_m && draw_.depth.near_m == draw.depth.near_m &&
-         draw_.depth.far_m == draw.depth.far_m && same(draw_.sun.direction, draw.sun.direction) &&
-         p.offset.x == q.offset.x && p.offset.y == q.offset.y && p.extent.width == q.extent.width &&
-         p.extent.height == q.extent.height;
-}
-
-}  // namespace v1
-}  // namespace alpenglow
+}  // namespace alpenglow::shafts

@@ -1,85 +1,92 @@
-// The passes that find a frame's shadows in the air: what the public handle alpenglow::Shafts
-// points to.
+// The pass that finds a frame's shadows in the atmosphere.
 #pragma once
 
 #include "atmosphere/bake/table_set.h"
 #include "atmosphere/shafts/sun_map.h"
 
-namespace alpenglow {
-namespace shafts {
+namespace alpenglow::shafts {
 
 /// With the defaults filled in.
-ShaftsDesc completed(const ShaftsDesc& desc);
-/// Ok, or a sentence that names the wrong field. Of a completed description.
-Status checkShaftsDesc(const engine::Device& device, const ShaftsDesc& desc);
+ShaftSettings completed(const ShaftSettings& desc);
+/// Ok, or a sentence that names the wrong field. Of completed settings.
+Status checkShaftSettings(const engine::Device& device, const ShaftSettings& desc);
 /// Whether the draw's viewport lies in the scene's picture.
-Status checkViewport(const engine::Device& device, const ShaftsDesc& desc, const SkyDraw& draw);
-Status checkCasters(const engine::Device& device, const Casters& casters);
+Status checkViewport(const engine::Device& device, const VkExtent2D& scene, const FrameState& draw);
+Status checkCasters(const engine::Device& device, const CasterSet& casters);
 
-}  // namespace shafts
-
-inline namespace v1 {
-
-/// Externally synchronised.
-struct Shafts {
+/// Owned by a view; externally synchronised.
+class LightShaftPass {
  public:
-  static Status create(bake::Resources& resources, const ShaftsDesc& desc, Shafts** out);
-  static void destroy(Shafts* shafts, uint64_t frame);
+  explicit LightShaftPass(bake::Resources& resources)
+      : resources_(resources), device_(resources.device()), map_(resources) {}
+  LightShaftPass(const LightShaftPass&) = delete;
+  LightShaftPass& operator=(const LightShaftPass&) = delete;
+  /// The settings have been completed and checked. `stages`: of the host's shaders that bind the set.
+  Status make(const ShaftSettings& desc, VkShaderStageFlags stages);
+  void destroy(uint64_t frame);
+  bool made() const { return setLayout_ != VK_NULL_HANDLE; }
 
-  Status recordSunMap(VkCommandBuffer commands, const double sun[3], const Casters& casters);
-  /// The draw has been checked. `air`: the set of an air volume that serves the draw, or null.
-  Status record(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw,
-                const Casters& casters, VkDescriptorSet air);
+  /// Before anything of a frame is recorded: makes what follows the extent of the scene's depth.
+  Status resize(VkExtent2D scene);
+  Status recordShadowMap(VkCommandBuffer commands, const double sun[3], const CasterSet& casters);
+  /// The frame has been checked. `lut`: the set of its aerial-perspective LUT, or null.
+  Status record(VkCommandBuffer commands, const Tables& tables, const FrameState& draw,
+                const HostImage& sceneDepth, const CasterSet& casters, VkDescriptorSet lut);
+  void abandon(uint64_t frame) { map_.abandon(frame); }
 
-  const ShaftsDesc& desc() const { return desc_; }
-  bake::Resources& resources() const { return resources_; }
+  const ShaftSettings& desc() const { return desc_; }
+  const SunMap& map() const { return map_; }
+  bool mapped() const { return desc_.method != LightShaftMethod::ShadowVolume; }
+  const engine::Image& target(uint32_t i) const { return targets_[i]; }
   engine::Image& target(uint32_t i) { return targets_[i]; }
+  uint32_t targetCount() const { return targetCount_; }
   VkDescriptorSetLayout setLayout() const { return setLayout_; }
   VkDescriptorSet set() const { return set_; }
-  /// Whether they were recorded last for this draw's camera, sun and viewport.
-  bool serves(const Tables& tables, const SkyDraw& draw) const;
 
  private:
-  Shafts(bake::Resources& resources, const ShaftsDesc& desc)
-      : resources_(resources), device_(resources.device()), desc_(desc), map_(resources) {}
-  bool exact() const { return desc_.method == ShaftMethod::Exact; }
-  bool mapped() const { return desc_.method != ShaftMethod::Paper; }
-  /// Whether light comes from an air volume when there is one: a camera's rays share their
-  /// observer.
+  bool exact() const { return desc_.method == LightShaftMethod::LightVolume; }
+  /// Whether light comes from an aerial-perspective LUT when there is one: a camera's rays share
+  /// their observer.
   bool looksUp() const { return exact() && desc_.projection != Projection::Orthographic; }
-  Status make();
+  uint32_t wantedTargets() const {
+    return desc_.method == LightShaftMethod::ShadowVolume ? 2 : exact() ? 1 : 0;
+  }
+  VkFormat targetFormat() const;
+  Status makeBuffers();
   Status makeTargets();
+  void describeBindings(VkDescriptorSetLayoutBinding* bindings) const;
+  Status makeLayout();
   Status makeSet();
   Status makePipelines();
   Status makeCulling();
-  Status makePipeline(bool fromVolume, VkPipeline* out);
-  Status checkMap(const SkyDraw& draw) const;
-  Status updateFrame(VkCommandBuffer commands, const shafts::ShaftFrame& frame);
-  /// Which blocks of the surface between light and shadow this frame sees.
+  Status makePipeline(bool fromLut, VkPipeline* out);
+  void dropTargets(uint64_t frame);
+  Status updateFrame(VkCommandBuffer commands, const ShaftFrame& frame);
+  /// Which blocks of the light-volume mesh this frame sees.
   Status cullBlocks(VkCommandBuffer commands);
-  void drawSurface(VkCommandBuffer commands, const SkyDraw& draw, VkPipeline pipeline);
-  Status drawShadows(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw,
-                     const Casters& casters, VkDescriptorSet air);
+  void drawSurface(VkCommandBuffer commands, const FrameState& draw, VkPipeline pipeline);
+  Status drawShadows(VkCommandBuffer commands, const Tables& tables, const FrameState& draw,
+                     const HostImage& sceneDepth, const CasterSet& casters, VkDescriptorSet lut);
 
   bake::Resources& resources_;
   engine::Device& device_;
-  ShaftsDesc desc_;
-  shafts::SunMap map_;
+  ShaftSettings desc_;
+  VkShaderStageFlags stages_ = 0;
+  SunMap map_;
+  VkExtent2D extent_ = {};         ///< Of the targets.
   engine::Buffer frame_, blocks_;  ///< AlpenglowShaftFrame; AlpenglowShaftBlocks, if exact.
-  engine::Image targets_[2];       ///< Sums; bounds of the paper's.
+  engine::MemoryBlock bufferMemory_;
+  engine::Image targets_[2];  ///< Sums; bounds of ShadowVolume.
   uint32_t targetCount_ = 0;
-  engine::MemoryBlock memory_;
-  VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE, airLayout_ = VK_NULL_HANDLE;
+  engine::MemoryBlock targetMemory_;
+  VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE, lutLayout_ = VK_NULL_HANDLE;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkDescriptorSet set_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
-  VkPipeline pipeline_ = VK_NULL_HANDLE;        ///< Integrates where it needs light.
-  VkPipeline volumePipeline_ = VK_NULL_HANDLE;  ///< Looks it up.
+  VkPipeline pipeline_ = VK_NULL_HANDLE;     ///< Integrates where it needs light.
+  VkPipeline lutPipeline_ = VK_NULL_HANDLE;  ///< Looks it up.
   VkPipelineLayout cullLayout_ = VK_NULL_HANDLE;
   VkPipeline cullPipeline_ = VK_NULL_HANDLE;  ///< If exact.
-  uint64_t tablesId_ = 0;                     ///< 0: nothing recorded yet.
-  SkyDraw draw_;                              ///< Of the last record.
 };
 
-}  // namespace v1
-}  // namespace alpenglow
+}  // namespace alpenglow::shafts

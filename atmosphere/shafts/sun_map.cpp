@@ -2,6 +2,8 @@
 
 #include <alpenglow/shaders/sun_map.h>
 
+#include <cmath>
+
 #include "engine/barriers.h"
 #include "engine/structure.h"
 
@@ -20,8 +22,9 @@ constexpr ImageState kRead = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
 
 }  // namespace
 
-Status SunMap::make(const ShaftsDesc& desc) {
-  size_ = desc.sunMapSize;
+Status SunMap::make(const ShaftSettings& desc) {
+  size_ = desc.shadowMapSize;
+  method_ = desc.method;
   const Status status = makeImage();
   return status == Status::Ok ? makePipeline(desc) : status;
 }
@@ -41,7 +44,7 @@ Status SunMap::makeImage() {
                                  &memory_);
 }
 
-Status SunMap::makePipeline(const ShaftsDesc& desc) {
+Status SunMap::makePipeline(const ShaftSettings& desc) {
   namespace s = alpenglow::shaders;
   const Status status = engine::createPipelineLayout(device_, nullptr, 0, &kPlaceRange, 1,
                                                      "Alpenglow map from the sun", &layout_);
@@ -70,7 +73,32 @@ void SunMap::destroy(uint64_t frame) {
   engine::deferBlock(device_, frame, &memory_);
 }
 
-Status SunMap::record(VkCommandBuffer commands, const double sun[3], const Casters& casters) {
+namespace {
+
+bool same(const double a[3], const double b[3], double tolerance) {
+  return std::abs(a[0] - b[0]) <= tolerance && std::abs(a[1] - b[1]) <= tolerance &&
+         std::abs(a[2] - b[2]) <= tolerance;
+}
+
+}  // namespace
+
+// A direction that differs by rounding alone is the same.
+bool SunMap::drawnFor(const double sun[3]) const {
+  constexpr double kSameDirection = 1e-7;
+  return recorded_ && same(place_.sun, sun, kSameDirection);
+}
+
+bool SunMap::current(const double sun[3], const CasterSet& casters) const {
+  if (!drawnFor(sun) || casters.version == 0 || casters.version != version_) return false;
+  constexpr double kSamePlace_m = 1e-3;
+  bool still = same(bounds_.center_m, casters.bounds.center_m, kSamePlace_m);
+  for (int i = 0; i < 3; ++i)
+    still = still && same(bounds_.halfAxes_m[i], casters.bounds.halfAxes_m[i], kSamePlace_m);
+  return still;
+}
+
+Status SunMap::record(VkCommandBuffer commands, const double sun[3], const CasterSet& casters) {
+  recorded_ = false;
   place_ = placeSunMap(casters.bounds, sun, size_);
   engine::Barriers barriers;
   barriers.discard(depth_, kDepthDrawn);
@@ -90,15 +118,24 @@ Status SunMap::record(VkCommandBuffer commands, const double sun[3], const Caste
   rendering.pDepthAttachment = &attachment;
   const engine::Dispatch& vk = device_.vk();
   vk.CmdBeginRendering(commands, &rendering);
-  CasterPass pass;
-  pass.device = &device_;
-  pass.commands = commands;
-  pass.layout = layout_;
-  pass.map = &place_;
-  drawCasters(pass, pipeline_, rendering.renderArea, casters);
+  CasterTarget target;
+  target.device = &device_;
+  target.layout = layout_;
+  target.map = &place_;
+  target.world = &casters.world;
+  double clip[16];
+  clipFromMap(place_, clip);
+  drawCasters(commands, target, method_, place_.center, clip, pipeline_, rendering.renderArea,
+              casters);
   vk.CmdEndRendering(commands);
   barriers.image(depth_, kRead);
-  return barriers.record(device_, commands);
+  status = barriers.record(device_, commands);
+  if (status != Status::Ok) return status;
+  recorded_ = true;
+  frame_ = device_.submitting();
+  version_ = casters.version;
+  bounds_ = casters.bounds;
+  return Status::Ok;
 }
 
 }  // namespace alpenglow::shafts

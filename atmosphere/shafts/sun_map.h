@@ -9,30 +9,44 @@ namespace alpenglow::shafts {
 
 inline constexpr VkFormat kSunMapFormat = VK_FORMAT_D32_SFLOAT;
 
-/// Owned by Shafts; externally synchronised.
+/// Owned by LightShaftPass; externally synchronised.
 class SunMap {
  public:
   explicit SunMap(bake::Resources& resources)
       : resources_(resources), device_(resources.device()) {}
-  Status make(const ShaftsDesc& desc);
+  Status make(const ShaftSettings& desc);
   void destroy(uint64_t frame);
 
+  /// Whether it holds these casters under this sun: their version is not 0 and the same, sun and
+  /// bounds are but for rounding.
+  bool current(const double sun[3], const CasterSet& casters) const;
+  /// Whether it was drawn for this sun.
+  bool drawnFor(const double sun[3]) const;
   /// Leaves the image readable by vertex and fragment shaders.
-  Status record(VkCommandBuffer commands, const double sun[3], const Casters& casters);
+  Status record(VkCommandBuffer commands, const double sun[3], const CasterSet& casters);
+  /// What was recorded in that frame never executes.
+  void abandon(uint64_t frame) {
+    if (frame_ >= frame) recorded_ = false;
+  }
 
-  /// The sun that it was recorded for last; a zero vector before.
+  /// The sun that it was recorded for last.
   const double* sun() const { return place_.sun; }
   const SunMapPlace& place() const { return place_; }
-  engine::Image& depth() { return depth_; }
+  const engine::Image& depth() const { return depth_; }
 
  private:
   Status makeImage();
-  Status makePipeline(const ShaftsDesc& desc);
+  Status makePipeline(const ShaftSettings& desc);
 
   bake::Resources& resources_;
   engine::Device& device_;
   uint32_t size_ = 0;
+  LightShaftMethod method_ = LightShaftMethod::Off;
   SunMapPlace place_;
+  bool recorded_ = false;
+  uint64_t frame_ = 0;  ///< In which it was recorded.
+  uint64_t version_ = 0;
+  PlanetBox bounds_;
   engine::Image depth_;
   engine::MemoryBlock memory_;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;

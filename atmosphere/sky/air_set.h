@@ -5,8 +5,10 @@
 
 namespace alpenglow::sky {
 
-/// Layouts made here are identically defined, so that one set serves pipelines of several rooms.
-Status createAirSetLayout(engine::Device& device, VkDescriptorSetLayout* out);
+/// Layouts made here for the same stages are identically defined, so that one set is bound with
+/// pipelines of several passes.
+Status createAirSetLayout(engine::Device& device, VkShaderStageFlags stages,
+                          VkDescriptorSetLayout* out);
 
 /// A pool with one set, of the volume's images.
 Status createAirSet(bake::Resources& resources, const AirVolume& volume,

@@ -3,7 +3,8 @@
 // Solver::Moments.
 #pragma once
 
-#include "atmosphere/sky/sky_slice.h"
+#include "atmosphere/sky/camera_math.h"
+#include "atmosphere/sky/lut.h"
 
 namespace alpenglow::sky {
 
@@ -16,50 +17,30 @@ struct AirLookup {
   double up[3];          ///< The camera's vertical.
   double sunAzimuth[3];  ///< Horizontal unit vector towards the sun; 0 for one in the zenith.
 };
-AirLookup airLookup(const Parameters& parameters, const SkyDraw& draw);
+AirLookup airLookup(const Parameters& parameters, const FrameState& draw);
 
-/// Owned by whoever draws with it; externally synchronised.
+/// Owned by a view; externally synchronised.
 class AirVolume {
  public:
   static constexpr uint32_t kImages = 3;
 
-  static Status create(bake::Resources& resources, EffectFlags without, AirVolume** out);
-  static void destroy(AirVolume* volume, uint64_t frame);
+  explicit AirVolume(bake::Resources& resources) : lut_(resources) {}
+  Status make(EffectFlags disabledEffects, VkPipelineStageFlags2 readers);
+  void destroy(uint64_t frame) { lut_.destroy(frame); }
+  bool made() const { return lut_.made(); }
   /// Of each of its images, for a view without these effects.
-  static VkExtent3D extentFor(EffectFlags without);
+  static VkExtent3D extentFor(EffectFlags disabledEffects);
 
-  /// Both have been checked; tables of Solver::Moments. Fills the volume and leaves it readable by
-  /// fragment and compute shaders.
-  Status record(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw);
-  /// Whether the volume, as recorded last, is what this draw looks into.
-  bool serves(const Tables& tables, const SkyDraw& draw) const {
-    return recorded_.is(tables, draw);
-  }
-
+  /// Whether it holds what this draw looks into.
+  bool current(const Tables& tables, const FrameState& draw) const;
+  Status record(VkCommandBuffer commands, const Tables& tables, const FrameState& draw);
+  Lut& lut() { return lut_; }
+  const Lut& lut() const { return lut_; }
   /// 3D, for ALPENGLOW_AIR_BINDING + i, with Resources::sampler().
-  const engine::Image& image(uint32_t i) const { return images_[i]; }
-  Status assertReadable() const;
-  uint64_t bytes() const;  ///< Of its images.
+  const engine::Image& image(uint32_t i) const { return lut_.image(i); }
 
  private:
-  AirVolume(bake::Resources& resources, EffectFlags without)
-      : resources_(resources), device_(resources.device()), without_(without) {}
-  Status make();
-  Status makeSet();
-  Status makePipeline();
-
-  bake::Resources& resources_;
-  engine::Device& device_;
-  EffectFlags without_;  ///< As the tables.
-  TableFormat format_ = TableFormat::Half;
-  engine::Image images_[kImages];
-  engine::MemoryBlock block_;
-  VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
-  VkDescriptorPool pool_ = VK_NULL_HANDLE;
-  VkDescriptorSet set_ = VK_NULL_HANDLE;
-  VkPipelineLayout layout_ = VK_NULL_HANDLE;
-  VkPipeline pipeline_ = VK_NULL_HANDLE;
-  RecordedFor recorded_;
+  Lut lut_;
 };
 
 }  // namespace alpenglow::sky

@@ -1,5 +1,5 @@
 // Cameras and suns from angles, in the planet's frame.
-#include <alpenglow/view.h>
+#include "atmosphere/sky/picture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +22,11 @@ Frame localFrame(double latitude, double longitude) {
 
 }  // namespace
 
-Camera cameraFromGeodetic(const Parameters& parameters, double latitude, double longitude,
+EyeCamera cameraFromGeodetic(const Parameters& parameters, double latitude, double longitude,
                           double altitude_m, double heading, double pitch, double roll,
                           double fov) {
   const Frame f = localFrame(latitude, longitude);
-  Camera camera;
+  EyeCamera camera;
   camera.fov = fov;
   // Below the ground there is no place, and below the centre "up" would turn round.
   const double r = parameters.bottomRadius_m + std::max(altitude_m, 0.0);

@@ -2,15 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+
+#include "atmosphere/model/query.h"
+
+#include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace alpenglow::sky {
 
-double cameraRadius(const Camera& camera) {
+double cameraRadius(const EyeCamera& camera) {
   return std::sqrt(dot(camera.position_m, camera.position_m));
 }
 
-double cameraAltitude(const Parameters& parameters, const Camera& camera) {
+double cameraAltitude(const Parameters& parameters, const EyeCamera& camera) {
   return std::max(cameraRadius(camera) - parameters.bottomRadius_m, 0.0);
 }
 
@@ -24,12 +29,33 @@ physics_f64::SliceView sliceView(const Parameters& parameters, double altitude) 
   return view;
 }
 
-void sunAzimuth(const SkyDraw& draw, double out[3]) {
+void sunAzimuth(const FrameState& draw, double out[3]) {
   const double *position = draw.camera.position_m, *sun = draw.sun.direction;
   const double r = cameraRadius(draw.camera), muS = dot(position, sun) / r;
   for (int i = 0; i < 3; ++i) out[i] = sun[i] - muS * position[i] / r;
   const double sine = std::sqrt(dot(out, out));
   for (int i = 0; i < 3; ++i) out[i] *= sine > 1e-12 ? 1.0 / sine : 0.0;
+}
+
+Spectrum sunlight(const Parameters& parameters, const FrameState& draw) {
+  const physics_f64::Medium medium = makeMediumF64(parameters);
+  const double altitude = cameraAltitude(parameters, draw.camera);
+  const double muS = std::clamp(
+      dot(draw.camera.position_m, draw.sun.direction) / cameraRadius(draw.camera), -1.0, 1.0);
+  const double visible = physics_f64::sunVisibility(medium, altitude, muS);
+  Spectrum light;
+  if (!(visible > 0.0)) return light;
+  ProbeQuery towardsSun;
+  towardsSun.altitude_m = altitude;
+  towardsSun.zenith = towardsSun.sunZenith = std::acos(muS);
+  const ResolvedQuery ray = resolveQuery(medium, towardsSun);
+  physics_f64::Spectrum depth(0.0);
+  // Where half of the sun's disc has set, its centre's ray ends on the ground.
+  if (!ray.empty)
+    depth = physics_f64::opticalDepthOfSegment(medium, ray.ray.h, ray.ray.mu, ray.length);
+  for (uint32_t i = 0; i < kSpectrumSize; ++i)
+    light[i] = draw.sun.irradiance[i] * visible * std::exp(-depth[static_cast<int>(i)]);
+  return light;
 }
 
 }  // namespace alpenglow::sky

@@ -1,7 +1,7 @@
 // Where a frame's camera and sun stand, as plain numbers in double.
 #pragma once
 
-#include <alpenglow/view.h>
+#include "atmosphere/sky/picture.h"
 
 #include "atmosphere/model/physics_cpp.h"
 
@@ -12,16 +12,20 @@ inline double dot(const double a[3], const double b[3]) {
 }
 
 /// Distance from the planet's centre.
-double cameraRadius(const Camera& camera);
+double cameraRadius(const EyeCamera& camera);
 /// The one subtraction that loses digits, taken in double (shaders/glsl/physics/geometry.glsl); 0
 /// below the ground.
-double cameraAltitude(const Parameters& parameters, const Camera& camera);
+double cameraAltitude(const Parameters& parameters, const EyeCamera& camera);
 
 /// How a camera's rays lie in a slice.
 physics_f64::SliceView sliceView(const Parameters& parameters, double altitude);
 
 /// Horizontal unit vector towards the sun at the camera; 0 for a sun in the zenith, towards which
 /// no azimuth is the sun's, and any will do.
-void sunAzimuth(const SkyDraw& draw, double out[3]);
+void sunAzimuth(const FrameState& draw, double out[3]);
+
+/// Irradiance of the sun on a surface that faces it, at the camera: transmittance by quadrature, 0 in
+/// the planet's shadow. No division by the sine of the elevation.
+Spectrum sunlight(const Parameters& parameters, const FrameState& draw);
 
 }  // namespace alpenglow::sky

@@ -24,8 +24,8 @@ struct Cone {
 };
 
 /// Where a point of the viewport looks to; x and y in pixels from its centre, to the right and up.
-void direction(const ViewDesc& desc, const SkyDraw& draw, double x, double y, double out[3]) {
-  const Camera& c = draw.camera;
+void direction(const PictureDesc& desc, const FrameState& draw, double x, double y, double out[3]) {
+  const EyeCamera& c = draw.camera;
   const std::array<double, 3> right = cameraRight(c);
   const double pixel = pixelAngle(desc, draw);
   double ahead = 1.0, scale = pixel;
@@ -39,7 +39,7 @@ void direction(const ViewDesc& desc, const SkyDraw& draw, double x, double y, do
 }
 
 /// A cone around all that an area sees.
-Cone coneOf(const ViewDesc& desc, const SkyDraw& draw, const VkRect2D& area) {
+Cone coneOf(const PictureDesc& desc, const FrameState& draw, const VkRect2D& area) {
   const ViewportSize size = viewportSize(draw);
   const double x0 = area.offset.x - 0.5 * size.width, x1 = x0 + area.extent.width;
   const double y1 = 0.5 * size.height - area.offset.y, y0 = y1 - area.extent.height;
@@ -101,24 +101,24 @@ bool joinRow(Parts* parts, uint32_t above, uint32_t row) {
 
 }  // namespace
 
-std::array<double, 3> cameraRight(const Camera& camera) {
+std::array<double, 3> cameraRight(const EyeCamera& camera) {
   const double *f = camera.forward, *u = camera.up;
   return {f[1] * u[2] - f[2] * u[1], f[2] * u[0] - f[0] * u[2], f[0] * u[1] - f[1] * u[0]};
 }
 
-ViewportSize viewportSize(const SkyDraw& draw) {
+ViewportSize viewportSize(const FrameState& draw) {
   const double width = draw.viewport.extent.width, height = draw.viewport.extent.height;
   return {width, height, std::min(width, height)};
 }
 
-double pixelAngle(const ViewDesc& desc, const SkyDraw& draw) {
+double pixelAngle(const PictureDesc& desc, const FrameState& draw) {
   const ViewportSize size = viewportSize(draw);
   if (desc.projection == Projection::Fisheye) return draw.camera.fov / size.least;
   if (desc.projection == Projection::Orthographic) return draw.camera.height_m / size.height;
   return 2.0 * std::tan(0.5 * draw.camera.fov) / size.height;
 }
 
-Visible visible(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw,
+Visible visible(const Parameters& parameters, const PictureDesc& desc, const FrameState& draw,
                 const VkRect2D& area) {
   // Radians: rounding on the GPU, and the disc's soft edge (drawnDisc), which a chord makes longer.
   const double margin = 0.005;
@@ -136,7 +136,7 @@ Visible visible(const Parameters& parameters, const ViewDesc& desc, const SkyDra
   return result;
 }
 
-Parts cut(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw) {
+Parts cut(const Parameters& parameters, const PictureDesc& desc, const FrameState& draw) {
   const VkExtent2D& whole = draw.viewport.extent;
   if (desc.projection == Projection::Orthographic) {
     Parts one;

@@ -2,7 +2,7 @@
 // the cheapest pipeline: a pixel of sky pays for no ground, and one of empty space for no air.
 #pragma once
 
-#include <alpenglow/view.h>
+#include "atmosphere/sky/picture.h"
 
 #include <array>
 #include <iterator>
@@ -36,7 +36,7 @@ constexpr bool drawn(EffectFlags without, const Visible& v) {
 
 /// Of a viewport's pixels, counted from its corner. Conservative, from the cones around them, the
 /// planet, the air and the sun.
-Visible visible(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw,
+Visible visible(const Parameters& parameters, const PictureDesc& desc, const FrameState& draw,
                 const VkRect2D& area);
 
 struct Part {
@@ -51,17 +51,17 @@ struct Parts {
   std::array<Part, kSide * kSide> parts;
   uint32_t count = 0;
 };
-Parts cut(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw);
+Parts cut(const Parameters& parameters, const PictureDesc& desc, const FrameState& draw);
 
 /// To the right of where a camera looks.
-std::array<double, 3> cameraRight(const Camera& camera);
+std::array<double, 3> cameraRight(const EyeCamera& camera);
 
 /// Width and height, and the lesser of them, in pixels.
 struct ViewportSize {
   double width, height, least;
 };
-ViewportSize viewportSize(const SkyDraw& draw);
+ViewportSize viewportSize(const FrameState& draw);
 /// Of a pixel at the centre of the view, radians; orthographic: metres.
-double pixelAngle(const ViewDesc& desc, const SkyDraw& draw);
+double pixelAngle(const PictureDesc& desc, const FrameState& draw);
 
 }  // namespace alpenglow::sky

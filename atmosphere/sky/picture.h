@@ -63,6 +63,21 @@ struct ShaftSettings : LightShaftDesc {
   EffectFlags disabledEffects = 0;
 };
 
+/// A box in the planet frame.
+struct PlanetBox {
+  double center_m[3] = {};
+  double halfAxes_m[3][3] = {};  ///< Three orthogonal vectors from the centre to the faces.
+};
+
+/// Casters of a frame.
+struct CasterSet {
+  PlanetBox bounds;
+  World world;  ///< In which the host places them.
+  DrawCastersFn draw = nullptr;
+  void* user = nullptr;
+  uint64_t version = 0;
+};
+
 /// A camera above a point of the planet. Angles in radians; altitudes below 0 count as 0.
 EyeCamera cameraFromGeodetic(const Parameters& parameters, double latitude, double longitude,
                              double altitude_m, double heading, double pitch, double roll,

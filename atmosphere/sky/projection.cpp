@@ -19,9 +19,9 @@ DepthScale depthScale(Projection projection, DepthConvention convention, const D
   return reversed ? DepthScale{-n * slope, f * n * slope} : DepthScale{f * slope, -f * n * slope};
 }
 
-PictureEdges pictureEdges(Projection projection, const SkyDraw& draw) {
+PictureEdges pictureEdges(Projection projection, const FrameState& draw) {
   const ViewportSize size = viewportSize(draw);
-  const Camera& c = draw.camera;
+  const EyeCamera& c = draw.camera;
   const double half = projection == Projection::Orthographic ? 0.5 * c.height_m
                       : projection == Projection::Fisheye    ? 1.0
                                                              : std::tan(0.5 * c.fov);
@@ -35,7 +35,7 @@ PictureEdges pictureEdges(Projection projection, const SkyDraw& draw) {
   return edges;
 }
 
-void clipFromCamera(Projection projection, DepthConvention convention, const SkyDraw& draw,
+void clipFromCamera(Projection projection, DepthConvention convention, const FrameState& draw,
                     double matrix[16]) {
   const PictureEdges edges = pictureEdges(projection, draw);
   const DepthScale depth = depthScale(projection, convention, draw.depth);
@@ -56,7 +56,7 @@ void clipFromCamera(Projection projection, DepthConvention convention, const Sky
 
 inline namespace v1 {
 
-void clipFromCamera(Projection projection, DepthConvention convention, const SkyDraw& draw,
+void clipFromCamera(Projection projection, DepthConvention convention, const FrameState& draw,
                     float matrix[16]) {
   double m[16];
   sky::clipFromCamera(projection, convention, draw, m);

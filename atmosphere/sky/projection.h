@@ -1,7 +1,7 @@
 // How a camera's picture lies in space and in depth: shared by what draws into a host's scene.
 #pragma once
 
-#include <alpenglow/view.h>
+#include "atmosphere/sky/picture.h"
 
 namespace alpenglow::sky {
 
@@ -18,10 +18,10 @@ DepthScale depthScale(Projection projection, DepthConvention convention, const D
 struct PictureEdges {
   double right[3], down[3];
 };
-PictureEdges pictureEdges(Projection projection, const SkyDraw& draw);
+PictureEdges pictureEdges(Projection projection, const FrameState& draw);
 
 /// Column-major; of metres from the camera in the planet's axes. Not for fisheyes.
-void clipFromCamera(Projection projection, DepthConvention convention, const SkyDraw& draw,
+void clipFromCamera(Projection projection, DepthConvention convention, const FrameState& draw,
                     double matrix[16]);
 
 }  // namespace alpenglow::sky

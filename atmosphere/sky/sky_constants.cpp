@@ -51,14 +51,14 @@ Status checkViewport(const engine::Device& device, const VkRect2D& area) {
   if (area.extent.width == 0 || area.extent.height == 0 || area.extent.width > most[0] ||
       area.extent.height > most[1]) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "SkyDraw::viewport is %u x %u pixels, but must be from 1 x 1 to %u x %u.",
+                       "FrameState::viewport is %u x %u pixels, but must be from 1 x 1 to %u x %u.",
                        area.extent.width, area.extent.height, most[0], most[1]);
   }
   if (area.offset.x < 0 || area.offset.y < 0 ||
       int64_t{area.offset.x} + area.extent.width > INT32_MAX ||
       int64_t{area.offset.y} + area.extent.height > INT32_MAX) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "SkyDraw::viewport begins at pixel (%d, %d), but must begin inside the "
+                       "FrameState::viewport begins at pixel (%d, %d), but must begin inside the "
                        "colour attachment.",
                        area.offset.x, area.offset.y);
   }
@@ -71,11 +71,11 @@ Status checkDirection(const engine::Device& device, const char* name, const doub
   return unit(direction) ? Status::Ok : refuse(device, name, direction, "a unit vector");
 }
 
-Status checkDraw(const engine::Device& device, Projection projection, const SkyDraw& draw) {
-  const Camera& c = draw.camera;
+Status checkDraw(const engine::Device& device, Projection projection, const FrameState& draw) {
+  const EyeCamera& c = draw.camera;
   const double r2 = dot(c.position_m, c.position_m);
   if (!(r2 > 0.0 && r2 < 1e30)) {
-    return refuse(device, "Camera::position_m", c.position_m,
+    return refuse(device, "Camera::position", c.position_m,
                   "finite, away from the planet's centre and within 1e15 m of it");
   }
   Status status = checkDirection(device, "Camera::forward", c.forward);
@@ -86,26 +86,26 @@ Status checkDraw(const engine::Device& device, Projection projection, const SkyD
   const bool fisheye = projection == Projection::Fisheye;
   const bool parallel = projection == Projection::Orthographic;
   if (parallel && !(c.height_m > 0.0 && c.height_m < 1e9))
-    return refuse(device, "Camera::height_m", c.height_m, "above 0 and below 1e9 metres");
+    return refuse(device, "Camera::height", c.height_m, "above 0 and below 1e9 metres");
   if (!parallel && !(c.fov > 0.0 && (fisheye ? c.fov <= 2.0 * kPi + 1e-9 : c.fov < kPi))) {
     return refuse(device, "Camera::fov", c.fov,
                   fisheye ? "above 0 and at most 2 pi radians" : "above 0 and below pi radians");
   }
-  status = checkDirection(device, "Sun::direction", draw.sun.direction);
+  status = checkDirection(device, "Light::direction", draw.sun.direction);
   if (status != Status::Ok) return status;
   if (!(draw.sun.discRadius >= 0.0 && draw.sun.discRadius < 0.5 * kPi))
-    return refuse(device, "Sun::discRadius", draw.sun.discRadius, "from 0 to below pi / 2 radians");
+    return refuse(device, "Light::discRadius", draw.sun.discRadius, "from 0 to below pi / 2 radians");
   for (uint32_t i = 0; i < kSpectrumSize; ++i)
     if (!(draw.sun.irradiance[i] >= 0.0 && draw.sun.irradiance[i] < 1e30))
       return refuse(device, "Sun::irradiance", draw.sun.irradiance[i], "from 0 to below 1e30");
   if (!(draw.radianceScale >= 0.0 && draw.radianceScale < 1e30))
-    return refuse(device, "SkyDraw::radianceScale", draw.radianceScale, "from 0 to below 1e30");
+    return refuse(device, "FrameState::radianceScale", draw.radianceScale, "from 0 to below 1e30");
   return checkViewport(device, draw.viewport);
 }
 
-SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc,
-                           const SkyDraw& draw) {
-  const Camera& c = draw.camera;
+SkyConstants makeConstants(const Parameters& parameters, const PictureDesc& desc,
+                           const FrameState& draw) {
+  const EyeCamera& c = draw.camera;
   const ViewportSize v = viewportSize(draw);
   const PictureEdges edges = pictureEdges(desc.projection, draw);
   const double pixel = pixelAngle(desc, draw);
@@ -141,14 +141,14 @@ Status checkDepthRange(const engine::Device& device, Projection projection,
                              : n > 0.0 && n < 1e12 && (f == 0.0 || (f > n && f < 1e15));
   if (good) return Status::Ok;
   return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                     "SkyDraw::depth runs from %g to %g m, but must run from %s.", n, f,
+                     "FrameState::depth runs from %g to %g m, but must run from %s.", n, f,
                      parallel ? "one distance below 1e12 m to a greater one"
                               : "a distance above 0 to a greater one, or to 0 for infinitely far");
 }
 
-AirConstants makeAirConstants(const Parameters& parameters, const ViewDesc& desc,
-                              const SkyDraw& draw) {
-  const Camera& c = draw.camera;
+AirConstants makeAirConstants(const Parameters& parameters, const PictureDesc& desc,
+                              const FrameState& draw) {
+  const EyeCamera& c = draw.camera;
   const PictureEdges edges = pictureEdges(desc.projection, draw);
   const DepthScale depth = depthScale(desc.projection, desc.depth, draw.depth);
   const AirLookup air = airLookup(parameters, draw);

@@ -1,15 +1,13 @@
-// The pass that draws sky, sun disc and ground: what the public handle alpenglow::View points to.
+// The passes that draw into a host's rendering scope: sky, sun disc and ground; and aerial perspective
+// over a host's scene. Both share push constants, sets and a pipeline layout.
 #pragma once
-
-#include <alpenglow/view.h>
 
 #include "atmosphere/bake/table_set.h"
 #include "atmosphere/sky/air_volume.h"
 #include "atmosphere/sky/parts.h"
 #include "atmosphere/sky/sky_slice.h"
 
-namespace alpenglow {
-namespace sky {
+namespace alpenglow::sky {
 
 /// Push constants of sky.frag: shaders/glsl/sky/sky.frag says what each is.
 struct SkyConstants {
@@ -37,89 +35,75 @@ struct AirConstants {
 };
 static_assert(sizeof(AirConstants) == sizeof(SkyConstants), "Both share a layout");
 
-/// What light shafts give a view: the set of alpenglow/shafts.glsl. A null layout: none.
+/// What light shafts give a picture: the set of alpenglow/shafts.glsl. A null layout: none.
 struct ShaftSet {
   VkDescriptorSetLayout layout = VK_NULL_HANDLE;
   VkDescriptorSet set = VK_NULL_HANDLE;
-  uint32_t method = 0;  ///< ShaftMethod.
-  uint32_t samples = 0;
+  uint32_t method = 0;  ///< As the shaders count: LightVolume 0, ShadowVolume 1, RayMarch 2.
+  uint32_t stepCount = 0;
   float multipleLoss = 0.0f;
 };
 
+/// Sets 0 to 3 of the pipelines: tables, picture, aerial-perspective LUT, light shafts.
+struct PictureSets {
+  VkDescriptorSet sets[kViewSetCount] = {};
+  void bind(const engine::Device& device, VkCommandBuffer commands, VkPipelineLayout layout) const;
+};
+
 /// Fills the constants; everything is computed in double and rounded once.
-SkyConstants makeConstants(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw);
-AirConstants makeAirConstants(const Parameters& parameters, const ViewDesc& desc,
-                              const SkyDraw& draw);
+SkyConstants makeConstants(const Parameters& parameters, const PictureDesc& desc, const FrameState& draw);
+AirConstants makeAirConstants(const Parameters& parameters, const PictureDesc& desc,
+                              const FrameState& draw);
 /// Ok, or a sentence that names the wrong field.
-Status checkDraw(const engine::Device& device, Projection projection, const SkyDraw& draw);
+Status checkDraw(const engine::Device& device, Projection projection, const FrameState& draw);
 Status checkDepthRange(const engine::Device& device, Projection projection,
                        const DepthRange& range);
 /// A unit vector, or a sentence with its name.
 Status checkDirection(const engine::Device& device, const char* name, const double direction[3]);
-Status checkViewDesc(const engine::Device& device, const ViewDesc& desc);
 /// Ok, or a sentence when the draw's camera, or a part of it, sees what the view is without.
 Status checkDrawnEffects(const engine::Device& device, const Parameters& parameters,
-                         const ViewDesc& desc, const SkyDraw& draw);
-Status checkParts(const engine::Device& device, const ViewDesc& desc, const Parts& parts);
+                         const PictureDesc& desc, const FrameState& draw);
+Status checkParts(const engine::Device& device, const PictureDesc& desc, const Parts& parts);
 
-}  // namespace sky
-
-inline namespace v1 {
-
-/// Externally synchronised.
-struct View {
+/// Sky, sun disc and ground. Owned by a view; externally synchronised.
+class SkyPass {
  public:
-  static Status create(bake::Resources& resources, const ViewDesc& desc,
-                       const sky::ShaftSet& shafts, View** out);
-  static void destroy(View* view, uint64_t frame);
-  Status recordSlice(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw);
-  // The draw of the next two has been checked (checkRecord).
-  Status recordSky(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw);
-  Status recordAir(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw);
-  /// The set of an air volume that serves the draw, or null.
-  VkDescriptorSet airSet(const Tables& tables, const SkyDraw& draw) const;
-  Status checkRecord(const Tables& tables, const SkyDraw& draw, const char* call) const;
-  const ViewDesc& desc() const { return desc_; }
-  bake::Resources& resources() const { return resources_; }
+  explicit SkyPass(engine::Device& device) : device_(device) {}
+  /// `lut`: that of the picture, or null.
+  Status make(const PictureDesc& desc, const ShaftSet& shafts, const SkySlice* lut,
+              VkPipelineLayout layout);
+  void destroy(uint64_t frame);
+  /// A draw for each part, ordered by pipeline.
+  void record(VkCommandBuffer commands, const SkyConstants& constants, const PictureSets& sets,
+              const VkRect2D& viewport, const Parts& parts, bool fromLut);
 
  private:
-  View(bake::Resources& resources, const ViewDesc& desc, const sky::ShaftSet& shafts)
-      : resources_(resources), device_(resources.device()), desc_(desc), shafts_(shafts) {}
-  bool hasAir() const { return desc_.sceneDepth.view != VK_NULL_HANDLE; }
-  Status makeAir();
-  Status makeAirPipelines();
-  Status makeAirPipeline(bool fromVolume, VkPipeline* out);
-  Status makeSlice();
-  Status makeLayout();
-  Status makeSet(const VkDescriptorSetLayoutBinding* bindings, uint32_t count);
-  Status makePipelines(bool slice, VkPipeline* pipelines);
-  Status refuseEffects(EffectFlags tables) const;
-  Status refuseUnsliced(const char* call) const;
-  void bindSets(VkCommandBuffer commands, const Tables& tables);
-  /// A draw for each part, ordered by pipeline.
-  void drawParts(VkCommandBuffer commands, const sky::Parts& parts, const VkOffset2D& corner,
-                 const VkPipeline* pipelines);
+  Status makePipelines(const PictureDesc& desc, const ShaftSet& shafts, const SkySlice* lut,
+                       VkPipeline* pipelines);
 
-  bake::Resources& resources_;
   engine::Device& device_;
-  ViewDesc desc_;
-  sky::SkySlice* slice_ = nullptr;                    ///< Only with ViewDesc::skySlice.
-  VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;  ///< Only with a map or a slice.
-  VkDescriptorPool pool_ = VK_NULL_HANDLE;
-  VkDescriptorSet set_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
-  VkPipeline pipelines_[sky::kVariants] = {};
-  VkPipeline slicePipelines_[sky::kVariants] = {};  ///< Only with a slice.
-
-  // Aerial perspective: only with a scene's depth.
-  sky::ShaftSet shafts_;
-  sky::AirVolume* volume_ = nullptr;  ///< Only with a slice of moments.
-  VkDescriptorSetLayout airLayout_ = VK_NULL_HANDLE;
-  VkDescriptorPool airPool_ = VK_NULL_HANDLE;
-  VkDescriptorSet airSet_ = VK_NULL_HANDLE;
-  VkPipeline airPipeline_ = VK_NULL_HANDLE;        ///< Integrates through the tables.
-  VkPipeline airVolumePipeline_ = VK_NULL_HANDLE;  ///< Looks it up.
+  VkPipeline pipelines_[kVariants] = {};
+  VkPipeline lutPipelines_[kVariants] = {};
 };
 
-}  // namespace v1
-}  // namespace alpenglow
+/// Aerial perspective. Owned by a view; externally synchronised.
+class AirPass {
+ public:
+  explicit AirPass(engine::Device& device) : device_(device) {}
+  Status make(const PictureDesc& desc, const ShaftSet& shafts, VkPipelineLayout layout);
+  void destroy(uint64_t frame);
+  void record(VkCommandBuffer commands, const AirConstants& constants, const PictureSets& sets,
+              const VkRect2D& viewport, bool fromLut);
+
+ private:
+  Status makePipeline(const PictureDesc& desc, const ShaftSet& shafts, bool fromLut,
+                      VkPipeline* out);
+
+  engine::Device& device_;
+  VkPipelineLayout layout_ = VK_NULL_HANDLE;
+  VkPipeline pipeline_ = VK_NULL_HANDLE;     ///< Integrates through the tables.
+  VkPipeline lutPipeline_ = VK_NULL_HANDLE;  ///< Looks it up.
+};
+
+}  // namespace alpenglow::sky

@@ -19,17 +19,17 @@ ImageInfo imageOf(const char* name, const VkExtent3D& extent) {
   return info;
 }
 
-bool hasSlice(const ViewDesc& view, bool sliced) {
+bool hasSlice(const PictureDesc& view, bool sliced) {
   return sliced && view.projection != Projection::Orthographic;
 }
 
-bool hasVolume(const TableDesc& tables, const ViewDesc& view, bool sliced, bool air) {
+bool hasVolume(const TableDesc& tables, const PictureDesc& view, bool sliced, bool air) {
   return hasSlice(view, sliced) && air && tables.solver == Solver::Moments;
 }
 
 }  // namespace
 
-uint32_t viewImages(const TableDesc& tables, const ViewDesc& view, bool sliced, bool air,
+uint32_t viewImages(const TableDesc& tables, const PictureDesc& view, bool sliced, bool air,
                     ImageInfo out[kMaxViewImages]) {
   uint32_t count = 0;
   if (hasSlice(view, sliced)) {
@@ -44,7 +44,7 @@ uint32_t viewImages(const TableDesc& tables, const ViewDesc& view, bool sliced, 
   return count;
 }
 
-PlanCost viewCost(const TableDesc& tables, const ViewDesc& view, bool sliced, bool air) {
+PlanCost viewCost(const TableDesc& tables, const PictureDesc& view, bool sliced, bool air) {
   PlanCost cost;
   ImageInfo images[kMaxViewImages];
   cost.images = viewImages(tables, view, sliced, air, images);

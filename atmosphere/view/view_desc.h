@@ -1,0 +1,23 @@
+// What a host may ask of a view, and what it stands for.
+#pragma once
+
+#include "atmosphere/bake/table_set.h"
+#include "atmosphere/sky/picture.h"
+
+namespace alpenglow::view {
+
+/// A ViewDesc with what the tables add.
+struct ResolvedView {
+  PictureDesc picture;
+  bool hasShafts = false;
+  ShaftSettings shafts;  ///< Completed.
+  VkPipelineStageFlags2 readers = 0;
+};
+
+/// Pure: of a completed TableDesc.
+ResolvedView resolve(const TableDesc& tables, const ViewDesc& desc);
+
+/// Ok, or a sentence that names the wrong member of ViewDesc.
+Status checkViewDesc(const engine::Device& device, const TableDesc& tables, const ViewDesc& desc);
+
+}  // namespace alpenglow::view
