@@ -87,6 +87,7 @@ Status createContext(const ContextDesc& desc, Context** out) {
   needed.dynamicRendering = (context->capabilities & kCapabilityShafts) != 0;
   Status status = createDevice(desc, needed, &context->device);
   if (status == Status::Ok) status = bake::Resources::create(*context->device, &context->bake);
+  if (status == Status::Ok) context->bake->context = context;
   if (status == Status::Ok && (context->capabilities & kCapabilityBake) != 0)
     status = sky::ProbePass::create(*context->bake, &context->probe);
   if (status != Status::Ok) {

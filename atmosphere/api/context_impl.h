@@ -19,8 +19,13 @@ struct Context {
 /// Ok, or Unsupported with a sentence when the context was made without the capability.
 Status requireCapability(const Context& context, CapabilityFlags capability, const char* call);
 
-/// InvalidArgument, with a sentence where there are tables to say it.
+/// InvalidArgument, with a sentence where there is a context, or tables of one, to say it.
+Status nullArgument(const Context* context, const char* call);
 Status nullArgument(const Tables* tables, const char* call);
+/// InvalidArgument with a sentence unless `frame` may be recorded.
+Status checkFrame(const Tables& tables, const FrameInfo& frame, const char* call);
+/// The context's diagnostic, for what takes one.
+DiagnosticSink sinkOf(const Context& context);
 
 }  // namespace v1
 }  // namespace alpenglow

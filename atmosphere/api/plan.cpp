@@ -74,7 +74,7 @@ PlanCost shaftCost(const Plan& plan) {
 
 PlanCost costOf(const Parameters& parameters, const Plan& plan) {
   PlanCost cost;
-  const Parameters air = bake::simulated(parameters, plan.tableDesc.without);
+  const Parameters air = bake::simulated(parameters, plan.tableDesc.disabledEffects);
   const TableDesc full = bake::completed(air, plan.tableDesc);
   cost = tableCost(tablePlan(air, full));
   add(&cost, sky::viewCost(full, viewOf(plan), sliced(plan), plan.sceneDepth));
@@ -84,7 +84,7 @@ PlanCost costOf(const Parameters& parameters, const Plan& plan) {
 
 void listTables(const Parameters& parameters, Plan* plan) {
   plan->tableCount = 0;
-  const Parameters air = bake::simulated(parameters, plan->tableDesc.without);
+  const Parameters air = bake::simulated(parameters, plan->tableDesc.disabledEffects);
   const TableDesc full = bake::completed(air, plan->tableDesc);
   const bake::SolverPlan tables = tablePlan(air, full);
   for (const bake::PlanImage& image : tables.images) {
@@ -143,7 +143,7 @@ void priceChoices(const Parameters& parameters, Plan* plan) {
     if (name == "sun_zenith") {
       other.tableDesc.sunZenithFrom = other.tableDesc.sunZenithTo = 0.0;
     } else if (name == "optical_depths") {
-      other.tableDesc.moments.depthMu = other.tableDesc.moments.depthH = 0;
+      other.tableDesc.sizes.depthMu = other.tableDesc.sizes.depthH = 0;
     } else if (name == "quality") {
       other.tableDesc.quality = Quality::Medium;
     } else {

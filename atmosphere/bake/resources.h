@@ -51,6 +51,7 @@ class Resources {
   /// Objects of the host that are alive on this context.
   std::atomic<uint32_t> liveTables{0}, liveViews{0};
   std::atomic<uint64_t> tablesMade{0};  ///< Numbers them: an address may come again, an id never.
+  Context* context = nullptr;           ///< Whose these are.
 
  private:
   explicit Resources(engine::Device& device) : device_(device) {}

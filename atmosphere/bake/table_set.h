@@ -14,16 +14,13 @@
 
 namespace alpenglow::bake {
 
-/// Ok, or a sentence to the diagnostic that names the wrong field of the description, as the host
-/// gave it.
-Status checkTableDesc(const engine::Device& device, const TableDesc& desc);
-/// The description with its zeros replaced by defaults, for parameters as simulated; but Moments
-/// keep orders == 0: all of them.
+/// The description with its zeros replaced by defaults, for parameters as simulated: what
+/// resolveTableDesc does after its checks.
 TableDesc completed(const Parameters& parameters, const TableDesc& desc);
 /// The parameters less what is not simulated.
-Parameters simulated(const Parameters& parameters, EffectFlags without);
+Parameters simulated(const Parameters& parameters, EffectFlags disabled);
 /// Ok, or a sentence when a size of a completed description is out of range on this device.
-Status checkSizes(const engine::Device& device, const TableDesc& desc);
+Status checkDeviceLimits(const engine::Device& device, const TableDesc& desc);
 
 }  // namespace alpenglow::bake
 
@@ -43,18 +40,31 @@ struct Tables {
 
   Status recordBake(VkCommandBuffer commands, const FrameInfo& frame, uint64_t budget,
                     BakeProgress* progress);
-  Status info(TableId id, TableInfo* out) const;
+  void info(TablesInfo* out) const;
   Status recordReadback(VkCommandBuffer commands, TableId id, VkBuffer buffer, VkDeviceSize offset);
   Status recordUpload(VkCommandBuffer commands, const FrameInfo& frame, TableId id, VkBuffer buffer,
                       VkDeviceSize offset);
 
+  /// Baked or uploaded, by commands that are recorded.
   bool ready() const { return ready_; }
+  TablesState state() const;
   const Parameters& parameters() const { return parameters_; }
   const TableDesc& desc() const { return desc_; }
+  /// Of light 0, at the top of the atmosphere: what views draw with.
+  const Spectrum& irradiance() const { return desc_.lights[0].irradiance; }
   VkDescriptorSet descriptorSet() const { return tableSet_; }
   bake::Resources& resources() const { return resources_; }
   uint64_t id() const { return id_; }  ///< From 1; unique in the context.
-  /// InvalidArgument with a sentence when an image is not where descriptorSet() says.
+  /// A table's host copy and shape; null data when cpuQueries doesn't ask for it. It has arrived
+  /// once the state is Complete.
+  struct HostCopy {
+    const void* data = nullptr;
+    VkExtent3D extent = {};
+    VkFormat format = VK_FORMAT_UNDEFINED;
+  };
+  HostCopy hostCopy(TableId id) const;
+  /// NotReady, without a sentence, until ready(). InvalidArgument with a sentence when an image is
+  /// not where descriptorSet() says.
   Status assertReadable() const;
 
  private:
@@ -62,6 +72,7 @@ struct Tables {
          bool bakes);
   Status makeImages();
   Status makeUniforms();
+  Status makeHostCopies();
   Status makeDescriptors();
   Status makePipelines();
   Status writeTableSet();
@@ -71,11 +82,14 @@ struct Tables {
   /// The image to copy now; kNoImage when the table is not finished.
   uint32_t readableImage(TableId id) const;
   Status missing(TableId id) const;
-  Status notReadable(TableId id) const;
+  ImageState readable() const;  ///< Where readers sample the finished tables.
+  ImageInfo imageInfo(TableId id) const;
+  void copyToBuffer(VkCommandBuffer commands, engine::Image& image, VkBuffer buffer,
+                    VkDeviceSize offset);
   Status recordPass(VkCommandBuffer commands, const bake::Pass& pass, uint32_t firstRow,
                     uint32_t endRow);
   Status finish(VkCommandBuffer commands, const FrameInfo& frame);
-  Status makeReadable(VkCommandBuffer commands);
+  Status recordHostCopies(VkCommandBuffer commands);
   void releaseScratch(const FrameInfo& frame);
 
   bake::Resources& resources_;
@@ -95,7 +109,9 @@ struct Tables {
   std::vector<StageObjects> stages_;   ///< Empty without `bakes_`.
   std::vector<engine::Image> images_;  ///< As in the plan; scratch is empty without `bakes_`.
   engine::Buffer uniforms_;
-  engine::MemoryBlock persistentBlock_, scratchBlock_, uniformBlock_;
+  /// Those that cpuQueries asks for, by TableId; the others are empty.
+  engine::Buffer hostCopies_[kTableSource + 1];
+  engine::MemoryBlock persistentBlock_, scratchBlock_, uniformBlock_, hostBlock_;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkDescriptorSet tableSet_ = VK_NULL_HANDLE;
 
@@ -103,6 +119,7 @@ struct Tables {
   uint32_t currentRow_ = 0;
   uint64_t unitsDone_ = 0;
   uint32_t uploaded_ = 0;  ///< Bits by image.
+  uint64_t readyFrame_ = 0;  ///< In which the last slice or upload was recorded.
   bool scratchReleased_ = false;
   bool ready_ = false;
 };

@@ -112,8 +112,8 @@ void describeSuns(const TableDesc& base, Plan* plan) {
 }
 
 void describeDepths(const TableDesc& base, Plan* plan) {
-  const MomentSettings& settings = plan->tableDesc.moments;
-  if (settings.depthMu == base.moments.depthMu && settings.depthH == base.moments.depthH) return;
+  const TableSizes& settings = plan->tableDesc.sizes;
+  if (settings.depthMu == base.sizes.depthMu && settings.depthH == base.sizes.depthH) return;
   model::Sentence value, why;
   value << settings.depthMu << " x " << settings.depthH;
   why << "Beside tables for few suns that of optical depths is the largest, and so many texels "
@@ -224,8 +224,8 @@ void fitDepths(const TableDesc& base, Plan* plan) {
   const bool few = desc.sunZenithTo > 0.0 && desc.sunZenithTo - desc.sunZenithFrom <= kFewSuns;
   const bool fine = levelOf(desc.quality) >= Quality::Medium;
   if (base.solver != Solver::Moments || !few || !fine) return;
-  if (base.moments.depthMu == 0) desc.moments.depthMu = kFewDepthMu;
-  if (base.moments.depthH == 0) desc.moments.depthH = kFewDepthH;
+  if (base.sizes.depthMu == 0) desc.sizes.depthMu = kFewDepthMu;
+  if (base.sizes.depthH == 0) desc.sizes.depthH = kFewDepthH;
 }
 
 void describeChoices(const Parameters& parameters, const TableDesc& base, uint32_t solvedOrders,

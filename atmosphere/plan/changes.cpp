@@ -107,11 +107,11 @@ const char* tableChange(const Plan& has, const Plan& asked) {
   if (a.solver != b.solver || a.format != b.format || a.mie != b.mie)
     return "The tables are of another solver or format.";
   if (!holdsSuns(a, b)) return "The tables don't reach all suns that may come.";
-  if ((a.without & ~b.without) != 0) return "The tables are without an effect that is on now.";
-  const bool forced = ((b.without & ~a.without) & kTableEffects) != 0;
+  if ((a.disabledEffects & ~b.disabledEffects) != 0) return "The tables are without an effect that is on now.";
+  const bool forced = ((b.disabledEffects & ~a.disabledEffects) & kTableEffects) != 0;
   if (forced) {
     for (uint32_t i = 0; i < kEffectCount; ++i) {
-      const bool off = (b.without & ~a.without & effectBit(static_cast<Effect>(i))) != 0;
+      const bool off = (b.disabledEffects & ~a.disabledEffects & effectBit(static_cast<Effect>(i))) != 0;
       if (off && asked.effects[i].forced)
         return "The tables hold an effect that has been turned off.";
     }
@@ -150,7 +150,7 @@ PlanChange comparePlans(const Plan& current, const Plan& next) {
   const char* shafts = shaftChange(current, next);
   change.tables = tables != nullptr;
   const bool other =
-      current.tableDesc.without != next.tableDesc.without ||
+      current.tableDesc.disabledEffects != next.tableDesc.disabledEffects ||
       current.tableDesc.solver != next.tableDesc.solver ||
       current.tableDesc.mie != next.tableDesc.mie ||
       plan::levelOf(current.tableDesc.quality) != plan::levelOf(next.tableDesc.quality);

@@ -71,13 +71,13 @@ Status checkBase(const Needs& needs, const TableDesc& base, model::Sentence* why
          << ", but these enumerations end at 5, 1, 1 and 5.";
     return Status::InvalidArgument;
   }
-  if ((base.without & ~kTableEffects) != 0) {
-    *why << "TableDesc::without is " << base.without << ", but may have bits of kTableEffects, "
+  if ((base.disabledEffects & ~kTableEffects) != 0) {
+    *why << "TableDesc::disabledEffects is " << base.disabledEffects << ", but may have bits of kTableEffects, "
          << kTableEffects << ", alone.";
     return Status::InvalidArgument;
   }
   const bool single = needs.effects[uint32_t(Effect::MultipleScattering)] == Force::Off ||
-                      !hasEffect(base.without, Effect::MultipleScattering);
+                      !hasEffect(base.disabledEffects, Effect::MultipleScattering);
   if (single && base.orders > 1) {
     *why << "TableDesc::orders is " << base.orders
          << ", but multiple_scattering is off, which leaves order 1: give 0 or 1.";

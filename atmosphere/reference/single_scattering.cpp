@@ -56,9 +56,9 @@ SunlitRay makeSunlitRay(const Medium& medium, const ProbeQuery& query,
                         const ResolvedQuery& resolved) {
   using glm::dvec3;
   const dvec3 vertical(0.0, 0.0, 1.0);
-  const double viewSine = std::sin(query.viewZenith);
+  const double viewSine = std::sin(query.zenith);
   const double sunSine = std::sin(query.sunZenith);
-  const dvec3 view(viewSine, 0.0, std::cos(query.viewZenith));
+  const dvec3 view(viewSine, 0.0, std::cos(query.zenith));
   const dvec3 sun(sunSine * std::cos(query.azimuth), sunSine * std::sin(query.azimuth),
                   std::cos(query.sunZenith));
   const dvec3 normal = glm::cross(sun, view);
@@ -240,14 +240,14 @@ bool isValid(const ProbeQuery& query) {
   const bool common =
       std::isfinite(query.altitude_m) && query.altitude_m >= 0.0 && isZenithAngle(query.sunZenith);
   return common &&
-         (query.irradiance || (isZenithAngle(query.viewZenith) && std::isfinite(query.azimuth) &&
-                               std::isfinite(query.distance_m)));
+         (query.kind == QueryKind::Irradiance || (isZenithAngle(query.zenith) && std::isfinite(query.azimuth) &&
+                               std::isfinite(query.distance_m) && query.distance_m >= 0.0));
 }
 
 ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, double tolerance,
                                  std::span<const RayInterval> shadow) {
   ReferenceAnswer answer;
-  if (query.irradiance) {
+  if (query.kind == QueryKind::Irradiance) {
     const Estimate direct = directIrradiance(medium, query.altitude_m, std::cos(query.sunZenith),
                                              depthTolerance(tolerance));
     answer.value.direct = direct.value;

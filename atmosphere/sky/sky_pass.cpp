@@ -73,7 +73,7 @@ Status View::makeSlice() {
                         : tables.solver != desc_.solver             ? "of another solver"
                                                                     : "with another MieStorage");
   }
-  if (tables.without != (desc_.without & kTableEffects)) return refuseEffects(tables.without);
+  if (tables.disabledEffects != (desc_.without & kTableEffects)) return refuseEffects(tables.disabledEffects);
   desc_.skySlice = nullptr;  // Only their shape counts: they may be destroyed before the view.
   // Orthographic cameras have an observer a pixel; most of the simpler models have no slice.
   if (desc_.projection == Projection::Orthographic || !hasSkySlice(desc_.solver)) return Status::Ok;
@@ -194,15 +194,15 @@ Status View::checkRecord(const Tables& tables, const SkyDraw& draw, const char* 
                         tables.desc().mie == MieStorage::Full ? "in full" : "packed",
                         desc_.mie == MieStorage::Full ? "in full" : "packed");
   }
-  if (tables.desc().without != (desc_.without & kTableEffects))
-    return refuseEffects(tables.desc().without);
+  if (tables.desc().disabledEffects != (desc_.without & kTableEffects))
+    return refuseEffects(tables.desc().disabledEffects);
   const Status seen = sky::checkDrawnEffects(device_, tables.parameters(), desc_, draw);
   return seen == Status::Ok ? tables.assertReadable() : seen;
 }
 
 Status View::refuseEffects(EffectFlags tables) const {
   return device_.fail(Status::InvalidArgument, VK_SUCCESS,
-                      "The tables are without the effects 0x%x (TableDesc::without), but the view "
+                      "The tables are without the effects 0x%x (TableDesc::disabledEffects), but the view "
                       "draws tables without 0x%x (ViewDesc::without): they must agree.",
                       tables, desc_.without & kTableEffects);
 }

@@ -41,7 +41,7 @@ Landscape::Landscape(const Gpu* gpu, const io::Scene& scene, const TerrainMesh* 
     uploadTerrain(*scene.terrain, albedo);
     if (desc.shafts != nullptr) makeShafts(desc);
   }
-  makeSets(desc.context);
+  makeSets(desc.tables);
   makePipelines(desc);
 }
 

@@ -25,6 +25,7 @@ inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
 struct LandscapeDesc {
   Context* context = nullptr;
+  const Tables* tables = nullptr;  ///< On the same context as those that will be drawn with.
   VkExtent2D size = {};  ///< Of the picture, in pixels.
   VkFormat colorFormat = VK_FORMAT_UNDEFINED;
   Solver solver = Solver::Moments;     ///< As the tables that will be drawn with.
@@ -75,7 +76,7 @@ class Landscape {
  private:
   void uploadTerrain(const io::SceneTerrain& terrain, const io::AlbedoMap* albedo);
   void makeShafts(const LandscapeDesc& desc);
-  void makeSets(Context* context);
+  void makeSets(const Tables* tables);
   void makePipelines(const LandscapeDesc& desc);
   void setPicture(VkCommandBuffer commands, const SkyDraw& draw) const;
   void bind(VkCommandBuffer commands, VkPipeline pipeline, const Tables* tables) const;

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "landscape.h"
+#include "tables_info.h"
 
 namespace alpenglow::samples {
 namespace {
@@ -98,7 +99,7 @@ void Landscape::bind(VkCommandBuffer commands, VkPipeline pipeline, const Tables
   };
   gpu_->function<PFN_vkCmdBindPipeline>("vkCmdBindPipeline")(
       commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-  bindSet(0, tables != nullptr ? tableSet(tables) : VK_NULL_HANDLE);
+  bindSet(0, infoOf(tables).set);
   bindSet(1, frameSet_);
   bindSet(2, albedoSet_);
   bindSet(3, shafts_ != nullptr && tables != nullptr ? shaftSet(shafts_) : VK_NULL_HANDLE);

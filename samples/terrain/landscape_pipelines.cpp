@@ -17,6 +17,7 @@
 #include <alpenglow/shaders/sample_terrain_vertex.h>
 
 #include "landscape.h"
+#include "tables_info.h"
 
 namespace alpenglow::samples {
 namespace {
@@ -100,7 +101,7 @@ Code textOf(Solver solver, bool shafts, bool terrain) {
 
 }  // namespace
 
-void Landscape::makeSets(Context* context) {
+void Landscape::makeSets(const Tables* tables) {
   frame_ = gpu_->buffer(kFrameBytes,
                         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   frameLayout_ = gpu_->setLayout({&kFrameBinding, 1});
@@ -115,7 +116,7 @@ void Landscape::makeSets(Context* context) {
     write(*gpu_, albedoSet_, kAlbedoBinding.descriptorType, nullptr, &image);
   }
   const VkDescriptorSetLayout sets[] = {
-      tableSetLayout(context), frameLayout_.get(), albedoLayout_.get(),
+      infoOf(tables).setLayout, frameLayout_.get(), albedoLayout_.get(),
       shafts_ != nullptr ? shaftSetLayout(shafts_) : VK_NULL_HANDLE};
   layout_ = gpu_->pipelineLayout({sets, shafts_ != nullptr ? size_t{4} : size_t{3}}, kPush);
 }

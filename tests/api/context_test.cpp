@@ -102,7 +102,7 @@ TEST_F(StandardSkyTest, ASkyContextTakesUploadsButDoesNotBake) {
   const headless::HostBuffer answers =
       device().createHostBuffer(kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, nullptr);
   run([&](VkCommandBuffer commands) {
-    EXPECT_EQ(recordProbe(made, empty, commands, device().frame(), &query, 1, answers.buffer()),
+    EXPECT_EQ(recordProbe(empty, commands, device().frame(), &query, 1, answers.buffer()),
               Status::Unsupported);
     return true;
   });
@@ -175,7 +175,7 @@ TEST_F(StandardSkyTest, TableAndProbeArgumentsAreChecked) {
   run([&](VkCommandBuffer commands) {
     const auto refuses = [&](const ProbeQuery& query, const char* part) {
       const ProbeQuery queries[] = {ProbeQuery{}, query};
-      EXPECT_EQ(recordProbe(context(), baked, commands, frame, queries, 2, answers.buffer()),
+      EXPECT_EQ(recordProbe(baked, commands, frame, queries, 2, answers.buffer()),
                 Status::InvalidArgument)
           << part;
       EXPECT_TRUE(contains(message(), "ProbeQuery 1") && contains(message(), part)) << message();
@@ -184,39 +184,62 @@ TEST_F(StandardSkyTest, TableAndProbeArgumentsAreChecked) {
     query.altitude_m = -3.0;
     refuses(query, "altitude_m = -3");
     query = {};
-    query.viewZenith = 4.0;
-    refuses(query, "viewZenith = 4");
+    query.zenith = 4.0;
+    refuses(query, "zenith = 4");
     query = {};
     query.sunZenith = -0.5;
     refuses(query, "sunZenith = -0.5");
-    query.irradiance = true;
+    query.kind = QueryKind::Irradiance;
     refuses(query, "sunZenith = -0.5");
     query = {};
     query.azimuth = std::numeric_limits<double>::infinity();
     refuses(query, "azimuth = inf");
     query = {};
+    query.bounded = true;
     query.distance_m = std::numeric_limits<double>::quiet_NaN();
     refuses(query, "distance_m = ");
+    query.distance_m = -1.0;
+    refuses(query, "distance_m = -1");
+    query.bounded = false;
+    query.distance_m = 100.0;
+    refuses(query, "distance_m = 100");
+    query = {};
+    query.light = 1;
+    refuses(query, "light = 1");
+    query = {};
+    query.kind = static_cast<QueryKind>(2);
+    refuses(query, "kind = 2");
+    query = {};
+    query.kind = QueryKind::Irradiance;
+    query.zenith = 0.5;
+    refuses(query, "zenith = 0.5");
+    query.zenith = 0.0;
+    query.azimuth = 0.25;
+    refuses(query, "azimuth = 0.25");
+    query.azimuth = 0.0;
+    query.bounded = true;
+    refuses(query, "bounded = 1");
     const ProbeQuery good;
-    EXPECT_EQ(recordProbe(context(), baked, commands, frame, &good, 0, answers.buffer()),
+    EXPECT_EQ(recordProbe(baked, commands, frame, &good, 0, answers.buffer()),
               Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(context(), baked, commands, frame, nullptr, 1, answers.buffer()),
+    EXPECT_EQ(recordProbe(baked, commands, frame, nullptr, 1, answers.buffer()),
               Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(context(), baked, commands, frame, &good, 1, VK_NULL_HANDLE),
+    EXPECT_EQ(recordProbe(baked, commands, frame, &good, 1, VK_NULL_HANDLE),
               Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(nullptr, baked, commands, frame, &good, 1, answers.buffer()),
-              Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(context(), nullptr, commands, frame, &good, 1, answers.buffer()),
+    EXPECT_EQ(recordProbe(nullptr, commands, frame, &good, 1, answers.buffer()),
               Status::InvalidArgument);
     return true;
   });
   resourceReport(context(), &after);
   EXPECT_EQ(after.dispatches, before.dispatches);
   EXPECT_EQ(after.bytes, before.bytes);
-  EXPECT_EQ(readProbe(baked, nullptr, 1, answers.data(), nullptr), Status::InvalidArgument);
-  EXPECT_FALSE(tablesReady(nullptr));
-  EXPECT_EQ(tableSet(nullptr), VkDescriptorSet{VK_NULL_HANDLE});
-  EXPECT_EQ(tableSetLayout(nullptr), VkDescriptorSetLayout{VK_NULL_HANDLE});
+  EXPECT_EQ(answerQueries(baked, nullptr, 1, answers.data(), nullptr), Status::InvalidArgument);
+  TablesInfo info;
+  EXPECT_EQ(tablesInfo(nullptr, &info), Status::InvalidArgument);
+  EXPECT_EQ(info.state, TablesState::Empty);
+  message().clear();
+  EXPECT_EQ(tablesInfo(baked, nullptr), Status::InvalidArgument);
+  EXPECT_TRUE(contains(message(), "tablesInfo got a null argument")) << message();
 }
 
 // Two contexts on one device, several atmospheres on each, their slices interleaved in the same
@@ -225,7 +248,7 @@ TEST_F(StandardSkyTest, ContextsAndAtmospheresDoNotMix) {
   const char* const names[] = {"earth", "mars", "earth-hazy"};
   ProbeQuery query;
   query.altitude_m = 1000.0;
-  query.viewZenith = 1.3;
+  query.zenith = 1.3;
   query.sunZenith = 1.0;
   query.azimuth = 0.5;
   std::vector<double> alone;

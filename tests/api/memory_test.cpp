@@ -104,7 +104,7 @@ TEST_F(StandardSkyTest, HooksServeAllMemory) {
   const size_t whileBaking = host.alive.size();
   bakeAll(device(), baked);
   ProbeQuery query;
-  query.viewZenith = 1.0;
+  query.zenith = 1.0;
   EXPECT_EQ(probe(device(), made, baked, {query}).at(0).skyRadiance[1],
             probeAll({query}).at(0).skyRadiance[1]);
   collect(made, device().frame().completed);
@@ -228,7 +228,7 @@ TEST_F(StandardSkyTest, MappedRangesShareOneMemory) {
   // The second range and those to come are still mapped.
   bakeAll(device(), second);
   ProbeQuery query;
-  query.viewZenith = 1.0;
+  query.zenith = 1.0;
   EXPECT_EQ(probe(device(), made, second, {query}).at(0).skyRadiance[1],
             probeAll({query}).at(0).skyRadiance[1]);
   EXPECT_EQ(pool.mostAlive, 2u);

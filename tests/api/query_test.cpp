@@ -70,8 +70,8 @@ class QueryTest : public StandardSkyTest {
     return {bytes, bytes + info.bytes};
   }
   Copies readAll(Tables* tables) {
-    return {read(tables, TableId::OpticalDepth), read(tables, TableId::Moments),
-            read(tables, TableId::Source)};
+    return {read(tables, kTableOpticalDepth), read(tables, kTableMoments),
+            read(tables, kTableSource)};
   }
 
  private:
@@ -94,17 +94,22 @@ std::vector<ProbeQuery> randomQueries(uint32_t count) {
   std::vector<ProbeQuery> queries(count);
   for (uint32_t i = 0; i < count; ++i) {
     ProbeQuery& q = queries[i];
-    q.irradiance = i % 6 == 0;
+    q.kind = i % 6 == 0 ? QueryKind::Irradiance : QueryKind::Ray;
     q.altitude_m = i % 7 == 0   ? 0.0
                    : i % 7 == 1 ? std::exp(uniform(std::log(7e4), std::log(4e7)))
                                 : std::exp(uniform(std::log(2.0), std::log(6e4)));
     const double dip = std::acos(6360e3 / (6360e3 + q.altitude_m));
-    q.viewZenith = q.altitude_m > 6e4 ? kPi - (kPi / 2.0 - dip) * uniform(0.0, 1.02)
+    q.zenith = q.altitude_m > 6e4 ? kPi - (kPi / 2.0 - dip) * uniform(0.0, 1.02)
                    : i % 5 == 0       ? kPi / 2.0 + dip + uniform(-0.02, 0.02)
                                       : uniform(0.0, kPi);
     q.sunZenith = radians(uniform(0.0, 105.0));
     q.azimuth = uniform(-kPi, kPi);
-    if (i % 4 == 2) q.distance_m = std::exp(uniform(std::log(10.0), std::log(3e5)));
+    q.bounded = i % 4 == 2;
+    if (q.bounded) q.distance_m = std::exp(uniform(std::log(10.0), std::log(3e5)));
+    if (q.kind == QueryKind::Irradiance) {
+      q.bounded = false;
+      q.zenith = q.azimuth = q.distance_m = 0.0;
+    }
   }
   return queries;
 }
@@ -124,7 +129,7 @@ TEST_F(QueryTest, TheCpuAnswersWhatTheDeviceAnswers) {
       Errors transmittance, sky, ground, direct, irradiance;
       for (size_t i = 0; i < queries.size(); ++i) {
         ASSERT_EQ(cpu[i].hitsGround, device[i].hitsGround) << i;
-        if (queries[i].irradiance) {
+        if (queries[i].kind == QueryKind::Irradiance) {
           direct.add(device[i].direct, cpu[i].direct, 1e-6);
           irradiance.add(device[i].sky, cpu[i].sky, 1e-12);
         } else {
@@ -162,11 +167,11 @@ TEST_F(QueryTest, NotReadyUntilTheTablesAndTheirCopiesAre) {
   const Copies copies = readAll(tables);
   const TableReadbacks all = copies.pointers();
   EXPECT_EQ(ask({nullptr, all.moments, all.source}), Status::NotReady);
-  EXPECT_NE(message().find("TableId::OpticalDepth"), std::string::npos) << message();
+  EXPECT_NE(message().find("kTableOpticalDepth"), std::string::npos) << message();
   EXPECT_EQ(ask({all.opticalDepth, nullptr, all.source}), Status::NotReady);
-  EXPECT_NE(message().find("TableId::Moments"), std::string::npos) << message();
+  EXPECT_NE(message().find("kTableMoments"), std::string::npos) << message();
   EXPECT_EQ(ask({all.opticalDepth, all.moments, nullptr}), Status::NotReady);
-  EXPECT_NE(message().find("TableId::Source"), std::string::npos) << message();
+  EXPECT_NE(message().find("kTableSource"), std::string::npos) << message();
   EXPECT_EQ(answers[0].sky[0], 7.0) << "A failed call has written answers.";
   EXPECT_EQ(ask(all), Status::Ok) << message();
   EXPECT_NE(answers[0].sky[0], 7.0);

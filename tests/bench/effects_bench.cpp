@@ -41,8 +41,8 @@ class EffectsBench : public ShaftTest {
   Tables* bakeOnce(EffectCase* each) {
     const double before = bytes();
     TableDesc desc;
-    desc.without = each->without & kTableEffects;
-    if (each->settingsOfWhole) desc.moments = momentSettings(preset("earth"), desc.quality, {});
+    desc.disabledEffects = each->without & kTableEffects;
+    if (each->settingsOfWhole) desc.sizes = sizesOf(desc.quality);
     Tables* tables = nullptr;
     EXPECT_EQ(createTables(context(), preset("earth"), desc, &tables), Status::Ok) << message();
     const double made = bytes();

@@ -41,10 +41,10 @@ class EffectQueryTest : public SkyTest {
         for (const double view : {10.0, 85.0, 100.0, 150.0, -1.0}) {
           ProbeQuery query;
           query.altitude_m = altitude;
-          query.irradiance = view < 0.0;
-          query.viewZenith = radians(std::max(view, 0.0));
+          query.kind = view < 0.0 ? QueryKind::Irradiance : QueryKind::Ray;
+          query.zenith = radians(std::max(view, 0.0));
           query.sunZenith = radians(sun);
-          query.azimuth = radians(35.0);
+          query.azimuth = view < 0.0 ? 0.0 : radians(35.0);
           result.push_back(query);
         }
       }
@@ -66,15 +66,15 @@ TEST_F(EffectQueryTest, TheCpuAnswersWhatTheDeviceAnswers) {
                                     kIrradiance | kReflection, kTableEffects & ~kMultiple}) {
     TableDesc desc;
     desc.quality = Quality::Draft;
-    desc.without = without;
+    desc.disabledEffects = without;
     // Something must be there to scatter.
-    if ((without & effectBit(Effect::Rayleigh)) != 0) desc.without &= ~effectBit(Effect::Rayleigh);
+    if ((without & effectBit(Effect::Rayleigh)) != 0) desc.disabledEffects &= ~effectBit(Effect::Rayleigh);
     Tables* tables = nullptr;
     ASSERT_EQ(createTables(context(), preset("earth"), desc, &tables), Status::Ok) << message();
     bakeAll(device(), tables);
-    const std::vector<uint8_t> depths = read(tables, TableId::OpticalDepth),
-                               moments = read(tables, TableId::Moments),
-                               source = read(tables, TableId::Source);
+    const std::vector<uint8_t> depths = read(tables, kTableOpticalDepth),
+                               moments = read(tables, kTableMoments),
+                               source = read(tables, kTableSource);
     const auto given = [](const std::vector<uint8_t>& copy) {
       return copy.empty() ? nullptr : copy.data();
     };
@@ -99,7 +99,7 @@ TEST_F(EffectQueryTest, TheCpuAnswersWhatTheDeviceAnswers) {
       expectSame(device[i].direct, cpu[i].direct, &most);
       expectSame(device[i].sky, cpu[i].sky, &most);
     }
-    std::printf("without 0x%02x: %.1e\n", desc.without, most);
+    std::printf("without 0x%02x: %.1e\n", desc.disabledEffects, most);
     EXPECT_LT(most, 5e-5) << without;
     EXPECT_GT(light, 0.0) << without;
     // E of the sky is there if it was baked.

@@ -174,14 +174,14 @@ TEST_F(EffectRefusalsTest, DescriptionsThatMakeNoSense) {
   expectViewRefused(desc, "ViewDesc::without is 0x2|kTableEffects");
 
   TableDesc tables;
-  tables.without = kMultiple;
+  tables.disabledEffects = kMultiple;
   tables.orders = 3;
   expectTablesRefused(tables, "3 orders|Effect::MultipleScattering");
   tables = {};
-  tables.without = kGround;
+  tables.disabledEffects = kGround;
   expectTablesRefused(tables, "TableDesc::without is 0x40|kTableEffects");
   tables = smallTables();
-  tables.without = kMie;
+  tables.disabledEffects = kMie;
   expectTablesRefused(tables, "Solver::Standard|TableDesc::without");
 }
 

@@ -52,7 +52,7 @@ TEST(Plan, AFixedEveningSunTakesAQuarter) {
   TableDesc medium;
   medium.quality = Quality::Medium;
   const Plan plan = planOf(needs, "earth", medium);
-  EXPECT_EQ(plan.tableDesc.moments.depthMu, 128u);
+  EXPECT_EQ(plan.tableDesc.sizes.depthMu, 128u);
   EXPECT_LE(plan.cost.units, plan.whole.units / 4);
   uint64_t tables = 0;
   for (uint32_t i = 0; i < plan.tableCount; ++i)

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <alpenglow/alpenglow.h>
-#include <alpenglow/probe.h>
+#include <alpenglow/query.h>
 #include <alpenglow/view.h>
 
 #include <array>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/engine/device_fixture.h"
+#include "tests/bake/tables_state.h"
 #include "tests/sky/vulkan_wrap.h"
 
 namespace alpenglow::testing {

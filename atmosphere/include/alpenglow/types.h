@@ -2,8 +2,10 @@
 // frame numbers and memory hooks. Plain types only: no STL, no exceptions, no global state.
 #pragma once
 
+#include <alpenglow/export.h>
 #include <vulkan/vulkan_core.h>
 
+#include <cstddef>
 #include <cstdint>
 
 namespace alpenglow {
@@ -38,6 +40,14 @@ struct Diagnostic {
 /// Called from the thread that made the failing call, never from a thread of ours (we start none).
 using DiagnosticFn = void (*)(void* user, const Diagnostic& diagnostic);
 
+/// Where sentences go: that of the context for every call that knows one, else the one that a
+/// function takes. A null `report` discards them. Every failing call reports one Error. A warning is
+/// reported once for each object.
+struct DiagnosticSink {
+  DiagnosticFn report = nullptr;
+  void* user = nullptr;
+};
+
 /// Rising numbers from the host's timeline semaphore or fences. `submitting` is the frame being
 /// recorded now, `completed` the newest frame that the GPU has finished. What a frame may still
 /// use is destroyed once `completed` reaches its number. Count from 1: frame 0 has always
@@ -49,6 +59,21 @@ struct FrameInfo {
 
 /// Real Vulkan stages, accesses and layouts of an image at one point of a command buffer.
 struct ImageState {
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+  VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
+  VkAccessFlags2 access = VK_ACCESS_2_NONE;
+};
+
+/// An image of ours, in the state in which the last recorded call leaves it: `layout`, written by
+/// `stage` and `access`, and already made visible to the reader stages of its owner, so that a later
+/// reader on the same queue needs no barrier.
+struct ImageInfo {
+  const char* name = nullptr;  ///< Static. Null: this object has no such image.
+  VkImage image = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;
+  VkFormat format = VK_FORMAT_UNDEFINED;
+  VkExtent3D extent = {};
+  uint64_t bytes = 0;  ///< Of a tightly packed copy.
   VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
   VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
   VkAccessFlags2 access = VK_ACCESS_2_NONE;
