@@ -7,6 +7,7 @@
 #include <map>
 #include <vector>
 
+#include "atmosphere/model/table_limits.h"
 #include "tests/bake/tables_state.h"
 #include "tests/engine/device_fixture.h"
 

@@ -43,13 +43,13 @@ TEST_F(TableErrorsTest, WhatBelongsToTheOtherSolverIsRefused) {
   expectRefused(desc, "Solver::Moments and MieStorage::Packed");
   desc = {};
   desc.sizes.scatteringNu = 8;
-  expectRefused(desc, "Solver::Moments and TableSizes");
+  expectRefused(desc, "Solver::Moments and TableSizes::scatteringNu");
   desc = standardDesc();
   desc.quality = Quality::High;
   expectRefused(desc, "Solver::Standard and a Quality");
   desc = standardDesc();
   desc.sizes.viewPanels = 4;
-  expectRefused(desc, "Solver::Standard and TableSizes");
+  expectRefused(desc, "Solver::Standard and TableSizes::viewPanels");
   desc = {};
   desc.solver = static_cast<Solver>(6);
   expectRefused(desc, "solver 6");
@@ -95,10 +95,10 @@ TEST_F(TableErrorsTest, TablesThatAreNotReadyAreNotReadOrProbed) {
               Status::Unsupported);
     EXPECT_NE(lastDiagnostic().find("keepOrders"), std::string::npos) << lastDiagnostic();
     const ProbeQuery query;
-    EXPECT_EQ(
-        recordProbe(tables, commands, device().frame(), &query, 1, buffer.buffer()),
-        Status::NotReady);
-    EXPECT_NE(lastDiagnostic().find("0 of "), std::string::npos) << lastDiagnostic();
+    const size_t sentences = diagnostics().size();
+    EXPECT_EQ(recordProbe(tables, commands, device().frame(), &query, 1, buffer.buffer()),
+              Status::NotReady);
+    EXPECT_EQ(diagnostics().size(), sentences) << lastDiagnostic();  // It is no error.
     EXPECT_EQ(recordTableReadback(tables, commands, kTableScattering, VK_NULL_HANDLE, 0),
               Status::InvalidArgument);
     return true;
@@ -149,7 +149,7 @@ TEST_F(TableErrorsTest, WrongQueriesAreRefusedByIndexAndField) {
     EXPECT_EQ(
         recordProbe(tables, commands, device().frame(), queries, 2, buffer.buffer()),
         Status::InvalidArgument);
-    EXPECT_NE(lastDiagnostic().find("ProbeQuery 1 has viewZenith = 4"), std::string::npos)
+    EXPECT_NE(lastDiagnostic().find("ProbeQuery 1 has zenith = 4"), std::string::npos)
         << lastDiagnostic();
     EXPECT_EQ(
         recordProbe(tables, commands, device().frame(), queries, 0, buffer.buffer()),

@@ -9,6 +9,15 @@
 namespace alpenglow::test {
 namespace {
 
+/// What createTables makes of them.
+TableSizes sizesOf(const Parameters& parameters, Quality quality, const TableSizes& given = {}) {
+  TableDesc desc;
+  desc.quality = quality;
+  desc.sizes = given;
+  EXPECT_EQ(resolveTableDesc(parameters, &desc, {}), Status::Ok);
+  return desc.sizes;
+}
+
 class Moments : public Program {
  protected:
   Moments()

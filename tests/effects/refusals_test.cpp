@@ -131,7 +131,7 @@ TEST_F(EffectRefusalsTest, ViewsAndTablesAreWithoutTheSame) {
   Tables* clear = nullptr;
   TableDesc clearDesc;
   clearDesc.quality = Quality::Draft;
-  clearDesc.without = kMie;
+  clearDesc.disabledEffects = kMie;
   ASSERT_EQ(createTables(context(), preset("earth"), clearDesc, &clear), Status::Ok) << message();
   bakeAll(device(), clear);
   View* const whole = makeView(without(kViewEffects));
@@ -179,10 +179,10 @@ TEST_F(EffectRefusalsTest, DescriptionsThatMakeNoSense) {
   expectTablesRefused(tables, "3 orders|Effect::MultipleScattering");
   tables = {};
   tables.disabledEffects = kGround;
-  expectTablesRefused(tables, "TableDesc::without is 0x40|kTableEffects");
+  expectTablesRefused(tables, "TableDesc::disabledEffects is 0x40|kTableEffects");
   tables = smallTables();
   tables.disabledEffects = kMie;
-  expectTablesRefused(tables, "Solver::Standard|TableDesc::without");
+  expectTablesRefused(tables, "Solver::Standard|TableDesc::disabledEffects");
 }
 
 TEST_F(EffectRefusalsTest, ShaftsAreWithoutWhatTheirViewIs) {

@@ -1,4 +1,5 @@
 // What tables are without is made by nobody: pipelines, images, memory and dispatches of a bake.
+#include "atmosphere/model/table_limits.h"
 #include "tests/bake/bake_fixture.h"
 #include "tests/sky/sky_fixture.h"
 

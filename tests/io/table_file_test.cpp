@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "atmosphere/model/table_limits.h"
 #include "small_table.h"
 #include "temporary_folder.h"
 
@@ -258,6 +259,8 @@ TEST(TableSettings, DefaultsFollowSolverAndQuality) {
   EXPECT_EQ(momentSettingsText(desc.sizes), "");
   EXPECT_EQ(desc.quality, Quality::Default);
 
+  TableDesc whole;
+  ASSERT_EQ(resolveTableDesc(earth, &whole, {}), Status::Ok);
   desc = resolved(TableDesc{}, earth);
   EXPECT_EQ(desc.solver, Solver::Moments);
   EXPECT_EQ(desc.orders, 0u);
@@ -265,7 +268,7 @@ TEST(TableSettings, DefaultsFollowSolverAndQuality) {
   EXPECT_EQ(scatteringSizeText(desc.sizes), "0x0x0x0");
   EXPECT_TRUE(checkSizes(desc)) << checkSizes(desc).error;
   EXPECT_EQ(momentSettingsText(desc.sizes),
-            momentSettingsText(resolved(TableDesc{}, earth).sizes));
+            momentSettingsText(whole.sizes));
 
   TableDesc custom;
   custom.quality = Quality::High;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "atmosphere/bake/moment_shape.h"
+#include "atmosphere/bake/table_set.h"
 #include "atmosphere/model/query.h"
 
 #define IN(type) const type&

@@ -108,8 +108,9 @@ TEST_F(StandardSkyTest, TablesMustFitTheView) {
   Target target(device(), desc);
   target.draw([&](VkCommandBuffer commands) {
     const FrameInfo frame = device().frame();
+    message().clear();
     EXPECT_EQ(recordSky(view(), commands, frame, unbaked, goodDraw()), Status::NotReady);
-    EXPECT_TRUE(hasAll(message(), "not ready|0 of ")) << message();
+    EXPECT_EQ(message(), "");  // It is no error.
     EXPECT_EQ(recordSky(view(), commands, frame, packed, goodDraw()), Status::InvalidArgument);
     EXPECT_TRUE(hasAll(message(), "packed|ViewDesc::mie says in full")) << message();
     EXPECT_EQ(recordSky(foreign, commands, frame, tables(), goodDraw()), Status::InvalidArgument);
