@@ -62,7 +62,7 @@ void bakeAll(headless::Device& device, Tables* tables) {
   }
 }
 
-std::vector<ProbeAnswer> probe(headless::Device& device, Context* context, const Tables* tables,
+std::vector<ProbeAnswer> probe(headless::Device& device, const Tables* tables,
                                const std::vector<ProbeQuery>& queries) {
   const auto count = static_cast<uint32_t>(queries.size());
   std::string error = "The probe was refused.";
@@ -255,7 +255,7 @@ Picture SkyTest::picture(View* with, Tables* baked, const SkyDraw& draw,
 }
 
 std::vector<ProbeAnswer> SkyTest::probeAll(const std::vector<ProbeQuery>& queries, Tables* with) {
-  return probe(device(), context(), with != nullptr ? with : tables(), queries);
+  return probe(device(), with != nullptr ? with : tables(), queries);
 }
 
 bool hasAll(const std::string& text, const std::string& parts) {

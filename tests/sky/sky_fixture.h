@@ -93,7 +93,7 @@ Parameters preset(const char* name);
 /// Bakes all of it, one pass a submit.
 void bakeAll(headless::Device& device, Tables* tables);
 /// The answers of recordProbe. Empty after a failure.
-std::vector<ProbeAnswer> probe(headless::Device& device, Context* context, const Tables* tables,
+std::vector<ProbeAnswer> probe(headless::Device& device, const Tables* tables,
                                const std::vector<ProbeQuery>& queries);
 
 /// A draw of the whole extent: irradiance 1, no disc.
