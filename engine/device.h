@@ -114,6 +114,7 @@ class Device {
   const FeatureSet& enabled() const { return desc_.enabled; }
   const MemoryHooks* memoryHooks() const { return hooks_.allocate != nullptr ? &hooks_ : nullptr; }
   const ShaderReplacement& shaderReplacement() const { return shaderReplacement_; }
+  DiagnosticSink sink() const { return {desc_.diagnostic, desc_.user}; }
   /// What the host calls the description of this device.
   const char* descName() const { return desc_.name; }
   /// The families that share our images and buffers; more than one means concurrent.

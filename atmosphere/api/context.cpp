@@ -3,6 +3,7 @@
 
 #include "atmosphere/api/context_impl.h"
 #include "atmosphere/api/device_desc.h"
+#include "atmosphere/model/sentence.h"
 
 namespace alpenglow {
 inline namespace v1 {
@@ -33,10 +34,13 @@ const char* capabilityName(CapabilityFlags capability) {
 // Each capability asks for what it alone needs.
 Requirements requirementsOf(CapabilityFlags wanted) {
   Requirements needed;
+  if (wanted == 0) return needed;
   needed.apiVersion = VK_API_VERSION_1_3;
-  needed.synchronization2 = true;
+  needed.capabilities = wanted;
+  needed.deviceFeatures = kFeatureSynchronization2;
   const bool volumes = (wanted & kCapabilityShadowVolumes) != 0;
-  needed.dynamicRendering = (wanted & (kCapabilitySky | kCapabilityShafts)) != 0;
+  if ((wanted & (kCapabilitySky | kCapabilityShafts)) != 0)
+    needed.deviceFeatures |= kFeatureDynamicRendering;
   needed.features.dualSrcBlend = (wanted & kCapabilityAir) != 0;
   needed.features.depthClamp = (wanted & kCapabilityShafts) != 0;
   needed.features.geometryShader = volumes;
@@ -45,47 +49,58 @@ Requirements requirementsOf(CapabilityFlags wanted) {
   return needed;
 }
 
-Status reportTo(DiagnosticFn diagnostic, void* user, Status status, const char* message) {
-  if (diagnostic != nullptr) diagnostic(user, {Severity::Error, status, VK_SUCCESS, message});
-  return status;
+/// Of those wanted, what a device with these features has.
+CapabilityFlags capabilitiesOf(const engine::FeatureSet& offered, CapabilityFlags wanted) {
+  CapabilityFlags has = 0;
+  for (CapabilityFlags one = 1; one <= kAllCapabilities; one <<= 1) {
+    const bool asked = (wanted & one) != 0;
+    if (asked && engine::offersAll(offered, featureSet(requirementsOf(one)))) has |= one;
+  }
+  // Shadow volumes are a method of light shafts.
+  if ((wanted & ~has & kCapabilityShafts) != 0) has &= ~CapabilityFlags{kCapabilityShadowVolumes};
+  return has;
+}
+
+Status checkCapabilities(const ContextDesc& desc) {
+  if ((desc.capabilities & ~kAllCapabilities) == 0) return Status::Ok;
+  return model::report(desc.diagnostics, Status::InvalidArgument,
+                       model::Sentence()
+                           << "ContextDesc::capabilities is " << desc.capabilities
+                           << ", but may have no bits besides " ALPENGLOW_CAPABILITY_NAMES ".");
 }
 
 }  // namespace
 
-Status queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
-                         VkPhysicalDevice physicalDevice, CapabilityFlags wanted, Requirements* out,
-                         DiagnosticFn diagnostic, void* user) {
-  if (out == nullptr || (wanted & ~kAllCapabilities) != 0) {
-    return reportTo(diagnostic, user, Status::InvalidArgument,
-                    "queryRequirements needs a place for its answer and capabilities "
-                    "among " ALPENGLOW_CAPABILITY_NAMES ".");
-  }
-  *out = requirementsOf(wanted == 0 ? kDefaultCapabilities : wanted);
-  return engine::checkPhysicalDevice(getInstanceProcAddr, instance, physicalDevice,
-                                     featureSet(*out), diagnostic, user);
+Status queryRequirements(const ContextDesc& desc, Requirements* out) {
+  const DiagnosticSink& sink = desc.diagnostics;
+  if (out == nullptr) return model::reportNull(sink, "queryRequirements", "the requirements");
+  if (Status status = checkCapabilities(desc); status != Status::Ok) return status;
+  const CapabilityFlags wanted = desc.capabilities == 0 ? kDefaultCapabilities : desc.capabilities;
+  const Requirements needed = requirementsOf(wanted);
+  engine::FeatureSet offered;
+  const Status status =
+      engine::checkPhysicalDevice(desc.getInstanceProcAddr, desc.instance, desc.physicalDevice,
+                                  featureSet(needed), sink.report, sink.user, &offered);
+  // `out` may be the description's own `enabled`.
+  if (status == Status::Ok) *out = needed;
+  if (status == Status::Unsupported) *out = requirementsOf(capabilitiesOf(offered, wanted));
+  return status;
 }
 
 Status createContext(const ContextDesc& desc, Context** out) {
-  if (out == nullptr) {
-    return reportTo(desc.diagnostic, desc.user, Status::InvalidArgument,
-                    "createContext needs a place for the context, but got null.");
-  }
+  if (out == nullptr) return model::reportNull(desc.diagnostics, "createContext", "the context");
   *out = nullptr;
-  if ((desc.capabilities & ~kAllCapabilities) != 0) {
-    return reportTo(
-        desc.diagnostic, desc.user, Status::InvalidArgument,
-        "ContextDesc::capabilities has unknown bits, but only " ALPENGLOW_CAPABILITY_NAMES
-        " exist.");
-  }
+  if (Status status = checkCapabilities(desc); status != Status::Ok) return status;
   auto* context = new (std::nothrow) Context;
   if (context == nullptr) {
-    return reportTo(desc.diagnostic, desc.user, Status::OutOfHostMemory,
-                    "A context found no host memory.");
+    return model::report(desc.diagnostics, Status::OutOfHostMemory,
+                         "A context found no host memory.");
   }
   context->capabilities = desc.capabilities == 0 ? kDefaultCapabilities : desc.capabilities;
   Requirements needed = requirementsOf(context->capabilities);
   // A host may draw in render passes: createView asks. Shafts have scopes of their own.
-  needed.dynamicRendering = (context->capabilities & kCapabilityShafts) != 0;
+  if ((context->capabilities & kCapabilityShafts) == 0)
+    needed.deviceFeatures &= ~DeviceFeatureFlags{kFeatureDynamicRendering};
   Status status = createDevice(desc, needed, &context->device);
   if (status == Status::Ok)
     status = bake::Resources::create(*context->device, context->live, &context->bake);

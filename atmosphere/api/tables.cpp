@@ -21,10 +21,9 @@ Status createTables(Context* context, const Parameters& parameters, const TableD
                     Tables** out) {
   if (context == nullptr || out == nullptr) return Status::InvalidArgument;
   *out = nullptr;
-  char message[512];
-  if (validate(parameters, message, sizeof message) != Status::Ok)
-    return context->device->fail(Status::InvalidArgument, VK_SUCCESS, "%s", message);
-  Status status = bake::checkTableDesc(*context->device, desc);
+  Status status = validate(parameters, context->device->sink());
+  if (status != Status::Ok) return status;
+  status = bake::checkTableDesc(*context->device, desc);
   if (status != Status::Ok) return status;
   const Parameters simulated = bake::simulated(parameters, desc.without);
   const TableDesc full = bake::completed(simulated, desc);

@@ -1,4 +1,6 @@
 // Checks of TableDesc, before anything is made.
+#include <cstdarg>
+#include <cstdio>
 #include <numbers>
 
 #include "atmosphere/bake/desc_members.h"
@@ -15,14 +17,14 @@ struct Size {
 };
 
 template <size_t N>
-Status checkRanges(const engine::Device& device, const char* what, const Size (&sizes)[N],
+Status checkRanges(const Checks& checks, const char* what, const Size (&sizes)[N],
                    bool zeroIsDefault) {
   for (const Size& size : sizes) {
     if ((size.value >= size.least && size.value <= size.most) ||
         (size.value == 0 && zeroIsDefault)) {
       continue;
     }
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+    return checks.fail(Status::InvalidArgument, VK_SUCCESS,
                        "The %s %s is %u, but must be from %u to %u%s.", what, size.name, size.value,
                        size.least, size.most, zeroIsDefault ? ", or 0 for the default" : "");
   }
@@ -36,12 +38,12 @@ bool anyGiven(const Counts& counts, uint32_t Counts::*const (&members)[N]) {
   return false;
 }
 
-Status checkEnumerations(const engine::Device& device, const TableDesc& desc) {
+Status checkEnumerations(const Checks& checks, const TableDesc& desc) {
   if (desc.solver <= Solver::Hillaire && desc.format <= TableFormat::Float &&
       desc.mie <= MieStorage::Packed && desc.quality <= Quality::Ultra) {
     return Status::Ok;
   }
-  return device.fail(
+  return checks.fail(
       Status::InvalidArgument, VK_SUCCESS,
       "TableDesc has solver %u, format %u, mie %u and quality %u, but these enumerations end at "
       "%u, %u, %u and %u.",
@@ -52,7 +54,7 @@ Status checkEnumerations(const engine::Device& device, const TableDesc& desc) {
 }
 
 // What belongs to another solver must be left at its default: it would do nothing.
-Status checkCombination(const engine::Device& device, const TableDesc& desc) {
+Status checkCombination(const Checks& checks, const TableDesc& desc) {
   const bool moments = desc.solver == Solver::Moments, model = isModel(desc.solver);
   const struct {
     bool given, allowed;
@@ -68,41 +70,41 @@ Status checkCombination(const engine::Device& device, const TableDesc& desc) {
                  {desc.samples != 0, defaultSamples(desc.solver) != 0, "samples"}};
   for (const auto& choice : choices) {
     if (!choice.given || choice.allowed) continue;
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+    return checks.fail(Status::InvalidArgument, VK_SUCCESS,
                        "TableDesc has Solver::%s and %s, but that belongs to another solver: "
                        "leave it at its default.",
                        solverEnumerator(desc.solver), choice.name);
   }
   if (desc.samples <= kMaxSamples) return Status::Ok;
-  return device.fail(Status::InvalidArgument, VK_SUCCESS,
+  return checks.fail(Status::InvalidArgument, VK_SUCCESS,
                      "TableDesc::samples is %u, but must be from 1 to %u, or 0 for the default.",
                      desc.samples, kMaxSamples);
 }
 
-Status checkSuns(const engine::Device& device, const TableDesc& desc) {
+Status checkSuns(const Checks& checks, const TableDesc& desc) {
   const double from = desc.sunZenithFrom, to = desc.sunZenithTo;
   if (from >= 0.0 && to >= from && to <= std::numbers::pi) return Status::Ok;
-  return device.fail(Status::InvalidArgument, VK_SUCCESS,
+  return checks.fail(Status::InvalidArgument, VK_SUCCESS,
                      "TableDesc has suns of zenith angles from %g to %g, but they must rise from 0 "
                      "to at most pi.",
                      from, to);
 }
 
-Status checkEffects(const engine::Device& device, const TableDesc& desc) {
+Status checkEffects(const Checks& checks, const TableDesc& desc) {
   if ((desc.without & ~kTableEffects) != 0) {
-    return device.fail(
+    return checks.fail(
         Status::InvalidArgument, VK_SUCCESS,
         "TableDesc::without is 0x%x, but may have bits of kTableEffects, 0x%x, alone.",
         desc.without, kTableEffects);
   }
   if (hasEffect(desc.without, Effect::MultipleScattering) || desc.orders <= 1) return Status::Ok;
-  return device.fail(Status::InvalidArgument, VK_SUCCESS,
+  return checks.fail(Status::InvalidArgument, VK_SUCCESS,
                      "TableDesc has %u orders, but is without Effect::MultipleScattering, whose "
                      "tables hold order 1.",
                      desc.orders);
 }
 
-Status checkSettings(const engine::Device& device, const MomentSettings& s, bool zeroIsDefault) {
+Status checkSettings(const Checks& checks, const MomentSettings& s, bool zeroIsDefault) {
   const Size sizes[] = {
       {"depthMu", s.depthMu, 2, 4096},        {"depthH", s.depthH, 2, 4096},
       {"nodesR", s.nodesR, 2, 256},           {"nodesMuS", s.nodesMuS, 2, 512},
@@ -111,12 +113,12 @@ Status checkSettings(const engine::Device& device, const MomentSettings& s, bool
       {"degree", s.degree, 2, kMaxDegree},    {"sourceGamma", s.sourceGamma, 2, 256},
       {"sourcePsi", s.sourcePsi, 2, 256},     {"solverPanels", s.solverPanels, 2, 256},
       {"viewPanels", s.viewPanels, 2, 256}};
-  return checkRanges(device, "moment setting", sizes, zeroIsDefault);
+  return checkRanges(checks, "moment setting", sizes, zeroIsDefault);
 }
 
-Status checkStandardSizes(const engine::Device& device, const TableSizes& s) {
-  const uint32_t most2D = device.limits().maxImageDimension2D;
-  const uint32_t most3D = device.limits().maxImageDimension3D;
+Status checkStandardSizes(const Checks& checks, const TableSizes& s) {
+  const uint32_t most2D = checks.most2D;
+  const uint32_t most3D = checks.most3D;
   const Size sizes[] = {{"transmittanceMu", s.transmittanceMu, 2, most2D},
                         {"transmittanceR", s.transmittanceR, 2, most2D},
                         {"irradianceMuS", s.irradianceMuS, 2, most2D},
@@ -125,16 +127,16 @@ Status checkStandardSizes(const engine::Device& device, const TableSizes& s) {
                         {"scatteringMu", s.scatteringMu, 4, most3D},
                         {"scatteringMuS", s.scatteringMuS, 2, most3D},
                         {"scatteringNu", s.scatteringNu, 2, most3D}};
-  const Status status = checkRanges(device, "table size", sizes, false);
+  const Status status = checkRanges(checks, "table size", sizes, false);
   if (status != Status::Ok) return status;
   if (s.scatteringMu % 2 != 0) {
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+    return checks.fail(Status::InvalidArgument, VK_SUCCESS,
                        "The table size scatteringMu is %u, but must be even: half of its texels "
                        "look at the ground, half at the sky.",
                        s.scatteringMu);
   }
   if (uint64_t(s.scatteringMuS) * s.scatteringNu > most3D) {
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+    return checks.fail(Status::InvalidArgument, VK_SUCCESS,
                        "The table sizes scatteringMuS %u times scatteringNu %u are %llu texels "
                        "side by side, but this device's 3D images end at %u.",
                        s.scatteringMuS, s.scatteringNu,
@@ -143,7 +145,7 @@ Status checkStandardSizes(const engine::Device& device, const TableSizes& s) {
   }
   const uint64_t side = uint64_t(s.scatteringMuS) * s.scatteringR;
   if (side > most2D) {
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+    return checks.fail(Status::InvalidArgument, VK_SUCCESS,
                        "The table sizes scatteringMuS %u times scatteringR %u are %llu rows of a "
                        "bake, but this device's 2D images end at %u.",
                        s.scatteringMuS, s.scatteringR, static_cast<unsigned long long>(side),
@@ -153,6 +155,17 @@ Status checkStandardSizes(const engine::Device& device, const TableSizes& s) {
 }
 
 }  // namespace
+
+Status Checks::fail(Status status, VkResult result, const char* format, ...) const {
+  char message[512];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(message, sizeof message, format, arguments);
+  va_end(arguments);
+  if (device_ != nullptr) return device_->fail(status, result, "%s", message);
+  if (sink_.report != nullptr) sink_.report(sink_.user, {Severity::Error, status, result, message});
+  return status;
+}
 
 Parameters simulated(const Parameters& parameters, EffectFlags without) {
   Parameters result = parameters;
@@ -184,27 +197,27 @@ TableDesc completed(const Parameters& parameters, const TableDesc& desc) {
   return full;
 }
 
-Status checkTableDesc(const engine::Device& device, const TableDesc& desc) {
-  Status status = checkEnumerations(device, desc);
-  if (status == Status::Ok) status = checkCombination(device, desc);
-  if (status == Status::Ok) status = checkSettings(device, desc.moments, true);
-  if (status == Status::Ok) status = checkSuns(device, desc);
-  if (status == Status::Ok) status = checkEffects(device, desc);
+Status checkTableDesc(const Checks& checks, const TableDesc& desc) {
+  Status status = checkEnumerations(checks, desc);
+  if (status == Status::Ok) status = checkCombination(checks, desc);
+  if (status == Status::Ok) status = checkSettings(checks, desc.moments, true);
+  if (status == Status::Ok) status = checkSuns(checks, desc);
+  if (status == Status::Ok) status = checkEffects(checks, desc);
   if (status != Status::Ok) return status;
   if (desc.orders > kMaxOrders) {
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+    return checks.fail(Status::InvalidArgument, VK_SUCCESS,
                        "TableDesc::orders is %u, but must be from 1 to %u, or 0 for the default.",
                        desc.orders, kMaxOrders);
   }
   return Status::Ok;
 }
 
-Status checkSizes(const engine::Device& device, const TableDesc& desc) {
-  if (desc.solver == Solver::Standard) return checkStandardSizes(device, desc.sizes);
+Status checkSizes(const Checks& checks, const TableDesc& desc) {
+  if (desc.solver == Solver::Standard) return checkStandardSizes(checks, desc.sizes);
   const MomentSettings& s = desc.moments;
   if (isModel(desc.solver)) return Status::Ok;
   if (2 * s.azimuths > s.degree) return Status::Ok;
-  return device.fail(
+  return checks.fail(
       Status::InvalidArgument, VK_SUCCESS,
       "The moment setting azimuths is %u, but must be above half the degree, which is "
       "%u.",

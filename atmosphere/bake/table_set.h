@@ -15,16 +15,35 @@
 
 namespace alpenglow::bake {
 
+/// Where checks of a description report, and what images there are: of a device, or of a plan,
+/// which knows none and takes the largest images that any has.
+class Checks {
+ public:
+  Checks(const engine::Device& device)  // NOLINT: a device stands for its checks.
+      : most2D(device.limits().maxImageDimension2D),
+        most3D(device.limits().maxImageDimension3D),
+        device_(&device) {}
+  explicit Checks(const DiagnosticSink& sink) : sink_(sink) {}
+
+  const uint32_t most2D = 32768, most3D = 16384;
+  /// As Device::fail.
+  Status fail(Status status, VkResult result, const char* format, ...) const ALPENGLOW_PRINTF(4, 5);
+
+ private:
+  const engine::Device* device_ = nullptr;
+  DiagnosticSink sink_;
+};
+
 /// Ok, or a sentence to the diagnostic that names the wrong field of the description, as the host
 /// gave it.
-Status checkTableDesc(const engine::Device& device, const TableDesc& desc);
+Status checkTableDesc(const Checks& checks, const TableDesc& desc);
 /// The description with its zeros replaced by defaults, for parameters as simulated; but Moments
 /// keep orders == 0: all of them.
 TableDesc completed(const Parameters& parameters, const TableDesc& desc);
 /// The parameters less what is not simulated.
 Parameters simulated(const Parameters& parameters, EffectFlags without);
 /// Ok, or a sentence when a size of a completed description is out of range on this device.
-Status checkSizes(const engine::Device& device, const TableDesc& desc);
+Status checkSizes(const Checks& checks, const TableDesc& desc);
 
 }  // namespace alpenglow::bake
 

@@ -26,7 +26,13 @@ Bench::Bench(const std::string& device, VkExtent2D frame, bool validation) {
   options.validation = validation;
   options.requirements = [](PFN_vkGetInstanceProcAddr getProcAddr, VkInstance instance,
                             VkPhysicalDevice physical, Requirements* out, std::string* missing) {
-    return queryRequirements(getProcAddr, instance, physical, kWanted, out, keep, missing);
+    ContextDesc desc;
+    desc.instance = instance;
+    desc.physicalDevice = physical;
+    desc.getInstanceProcAddr = getProcAddr;
+    desc.capabilities = kWanted;
+    desc.diagnostics = {keep, missing};
+    return queryRequirements(desc, out);
   };
   device_ = headless::Device::create(options, &error_);
   if (!device_) throw Failure(error_);
@@ -51,8 +57,7 @@ void Bench::renew() {
   context_ = nullptr;
   ContextDesc desc = device_->contextDesc();
   desc.capabilities = kWanted;
-  desc.diagnostic = keep;
-  desc.user = &error_;
+  desc.diagnostics = {keep, &error_};
   if (createContext(desc, &context_) != Status::Ok) throw Failure(error_);
 }
 

@@ -66,9 +66,9 @@ Measured draw(io::Scene scene, const Method& method, const std::string& device, 
   const PictureTarget target = createPictureTarget(&session, scene.width, scene.height);
   std::optional<ShaftsDesc> shafts = describeShafts(choice, session);
   if (shafts) shafts->without = plan.viewWithout;
-  Scenery scenery(&session, scene, files, plan.tableDesc, shafts, plan);
+  Scenery scenery(&session, scene, files, plan.tables, shafts, plan);
   TableRequest request;
-  request.desc = plan.tableDesc;
+  request.desc = plan.tables;
   const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
   Measured measured;
   // The first compiles the shaders.

@@ -9,7 +9,7 @@ Painter::Painter(Session* session, const io::Scene& scene, const io::AlbedoMap* 
   ViewDesc desc;
   desc.colorFormat = kPictureFormat;
   desc.projection = samples::projectionOf(scene.camera);
-  describeView(plan, &desc);
+  samples::describeView(plan, &desc);
   // Where a slice can't be recorded, recordSky reads the tables.
   desc.skySlice = tables.tables.get();
   if (albedo != nullptr) {

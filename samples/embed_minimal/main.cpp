@@ -62,13 +62,10 @@ void makeDevice(Host& host) {
   vkEnumeratePhysicalDevices(vk.instance, &count, &vk.physicalDevice);
   if (count == 0) fail("There is no Vulkan device.");
   vk.getInstanceProcAddr = vkGetInstanceProcAddr;
-  vk.diagnostic = [](void*, const ag::Diagnostic& diagnostic) {
+  vk.diagnostics.report = [](void*, const ag::Diagnostic& diagnostic) {
     std::fprintf(stderr, "%s\n", diagnostic.message);
   };
-  check(ag::queryRequirements(vkGetInstanceProcAddr, vk.instance, vk.physicalDevice,
-                              ag::kCapabilityBake | ag::kCapabilitySky, &vk.enabled, vk.diagnostic,
-                              nullptr),
-        "Asking the device for what is needed");
+  check(ag::queryRequirements(vk, &vk.enabled), "Asking the device for what is needed");
   VkQueueFamilyProperties families[16];
   count = 16;
   vkGetPhysicalDeviceQueueFamilyProperties(vk.physicalDevice, &count, families);
@@ -79,8 +76,9 @@ void makeDevice(Host& host) {
   if (host.family == count) fail("The device has no queue for both graphics and compute.");
   VkPhysicalDeviceVulkan13Features features13{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-  features13.synchronization2 = vk.enabled.synchronization2;
-  features13.dynamicRendering = vk.enabled.dynamicRendering;
+  const ag::DeviceFeatureFlags newer = vk.enabled.deviceFeatures;
+  features13.synchronization2 = (newer & ag::kFeatureSynchronization2) != 0;
+  features13.dynamicRendering = (newer & ag::kFeatureDynamicRendering) != 0;
   VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &features13,
                                      vk.enabled.features};
   const float priority = 1.0f;
@@ -197,7 +195,7 @@ void drawSky(Host& host, const std::string& path, bool small) {
   ag::Context* context = nullptr;
   check(ag::createContext(host.vulkan, &context), "Making the context");
   ag::Parameters earth;
-  check(ag::findPreset("earth", &earth), "Finding the Earth");
+  check(ag::findPreset("earth", &earth, host.vulkan.diagnostics), "Finding the Earth");
   ag::TableDesc desc;
   if (small) desc.orders = 2, desc.quality = ag::Quality::Draft;
   ag::Tables* tables = nullptr;

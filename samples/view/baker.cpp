@@ -30,14 +30,14 @@ TableDesc draftOf(TableDesc desc) {
 }  // namespace
 
 bool Baker::wanted(const Air& air, bool alsoDraft) const {
-  const TableDesc& desc = wish_.plan.tableDesc;
+  const TableDesc& desc = wish_.plan.tables;
   return sameTables(air.desc, desc) && (alsoDraft || air.desc.quality == desc.quality) &&
          io::firstDifference(air.parameters, wish_.parameters).empty();
 }
 
 void Baker::start(bool draft) {
-  Air air = {wish_.parameters, wish_.plan,
-             draft ? draftOf(wish_.plan.tableDesc) : wish_.plan.tableDesc, nullptr};
+  Air air = {wish_.parameters, wish_.plan, draft ? draftOf(wish_.plan.tables) : wish_.plan.tables,
+             nullptr};
   Tables* made = nullptr;
   gpu_->check(createTables(context_, air.parameters, air.desc, &made));
   const samples::Gpu* gpu = gpu_;
@@ -51,7 +51,7 @@ bool Baker::want(const Parameters& parameters, const Plan& plan) {
   const Wish before = std::exchange(wish_, {parameters, plan});
   if (baking_ && (draft_ || wanted(*baking_, false))) {
     // A draft of other tables keeps the plan that it was made by.
-    if (sameTables(baking_->desc, plan.tableDesc)) baking_->plan = plan;
+    if (sameTables(baking_->desc, plan.tables)) baking_->plan = plan;
     return false;
   }
   if (made_ && wanted(*made_, false)) {
@@ -60,7 +60,7 @@ bool Baker::want(const Parameters& parameters, const Plan& plan) {
     return true;
   }
   try {
-    start(hasDraft(plan.tableDesc));
+    start(hasDraft(plan.tables));
   } catch (...) {
     wish_ = before;
     throw;
@@ -124,7 +124,7 @@ std::optional<Air> Baker::take() {
   if (!wanted(*made_, false)) {
     // The draft of what is wanted, or, where that has changed since, first a draft of it.
     try {
-      start(!wanted(*made_, true) && hasDraft(wish_.plan.tableDesc));
+      start(!wanted(*made_, true) && hasDraft(wish_.plan.tables));
     } catch (const std::exception& reason) {
       refusal_ = reason.what();
     }

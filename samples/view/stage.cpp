@@ -59,14 +59,14 @@ void Stage::load(const io::Scene& scene) {
 
 Stage::Key Stage::keyOf(const io::Scene& scene, const Air& air) const {
   ViewDesc desc;
-  describeView(air.plan, &desc);
+  samples::describeView(air.plan, &desc);
   const bool shafts = air.plan.shafts && mesh_ && scene.shafts != io::SceneShafts::Off;
   return {desc.solver,
           desc.mie,
           desc.without,
           air.plan.skySlice,
           air.plan.sceneDepth && mesh_.has_value(),
-          air.plan.tableDesc.quality,
+          air.plan.tables.quality,
           samples::projectionOf(scene.camera),
           shafts ? scene.shafts : io::SceneShafts::Off,
           scene.shaftSamples};
@@ -89,7 +89,7 @@ void Stage::makeView(const Key& key, const Air& air) {
   ViewDesc desc;
   desc.colorFormat = kRadianceFormat;
   desc.projection = key.projection;
-  describeView(air.plan, &desc);
+  samples::describeView(air.plan, &desc);
   if (air.plan.skySlice) desc.skySlice = air.tables.get();
   if (albedo_.image() != VK_NULL_HANDLE) {
     desc.groundAlbedo = {albedo_.view(), sampler_.get(), samples::kSampled.layout,

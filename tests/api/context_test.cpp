@@ -32,14 +32,14 @@ TEST_F(StandardSkyTest, ContextArgumentsAreChecked) {
   EXPECT_EQ(without(&ContextDesc::device), Status::InvalidArgument);
   EXPECT_EQ(without(&ContextDesc::getInstanceProcAddr), Status::InvalidArgument);
   desc = contextDesc();
-  desc.enabled.synchronization2 = false;
+  desc.enabled.deviceFeatures &= ~DeviceFeatureFlags{kFeatureSynchronization2};
   EXPECT_EQ(createContext(desc, &made), Status::Unsupported);
   EXPECT_TRUE(contains(lastDiagnostic(), "synchronization2")) << lastDiagnostic();
   desc = contextDesc();
   desc.enabled.apiVersion = VK_API_VERSION_1_2;
   EXPECT_EQ(createContext(desc, &made), Status::Unsupported);
   EXPECT_TRUE(contains(lastDiagnostic(), "1.3")) << lastDiagnostic();
-  desc.diagnostic = nullptr;  // Nobody listens: still refused, nothing else.
+  desc.diagnostics = {};  // Nobody listens: still refused, nothing else.
   EXPECT_EQ(createContext(desc, &made), Status::Unsupported);
   destroyContext(nullptr);
   resourceReport(nullptr, nullptr);
@@ -48,16 +48,19 @@ TEST_F(StandardSkyTest, ContextArgumentsAreChecked) {
 TEST_F(StandardSkyTest, RequirementsAreByCapability) {
   Requirements needed;
   const auto query = [&](CapabilityFlags wanted) {
-    return queryRequirements(device().getInstanceProcAddr(), device().instance(),
-                             device().physicalDevice(), wanted, &needed, nullptr, nullptr);
+    ContextDesc desc = contextDesc();
+    desc.capabilities = wanted;
+    return queryRequirements(desc, &needed);
   };
   EXPECT_EQ(query(kCapabilityBake), Status::Ok);
-  EXPECT_TRUE(needed.synchronization2);
-  EXPECT_FALSE(needed.dynamicRendering);
+  EXPECT_TRUE(needed.deviceFeatures & kFeatureSynchronization2);
+  EXPECT_EQ(needed.capabilities, kCapabilityBake);
+  EXPECT_FALSE(needed.deviceFeatures & kFeatureDynamicRendering);
   EXPECT_EQ(query(kCapabilitySky), Status::Ok);
-  EXPECT_TRUE(needed.dynamicRendering);
+  EXPECT_TRUE(needed.deviceFeatures & kFeatureDynamicRendering);
   EXPECT_EQ(query(0), Status::Ok);
-  EXPECT_TRUE(needed.dynamicRendering && needed.synchronization2);
+  EXPECT_EQ(needed.deviceFeatures, kFeatureDynamicRendering | kFeatureSynchronization2);
+  EXPECT_EQ(needed.capabilities, kCapabilityBake | kCapabilitySky);
   EXPECT_EQ(needed.apiVersion, VK_API_VERSION_1_3);
   EXPECT_EQ(needed.features.geometryShader, VkBool32{VK_FALSE});
   EXPECT_EQ(query(1u << 9), Status::InvalidArgument);
@@ -114,7 +117,7 @@ TEST_F(StandardSkyTest, ASkyContextTakesUploadsButDoesNotBake) {
 // dynamicRendering is for views without a render pass alone.
 TEST_F(StandardSkyTest, WithoutDynamicRenderingRenderPassesDraw) {
   ContextDesc desc = contextDesc();
-  desc.enabled.dynamicRendering = false;
+  desc.enabled.deviceFeatures &= ~DeviceFeatureFlags{kFeatureDynamicRendering};
   Context* made = nullptr;
   ASSERT_EQ(createContext(desc, &made), Status::Ok) << lastDiagnostic();
   Tables* baked = nullptr;

@@ -83,8 +83,7 @@ TEST_F(StandardSkyTest, ForgottenObjectsGoWithTheContext) {
   auto other = makeDevice();
   ASSERT_NE(other, nullptr);
   ContextDesc desc = other->contextDesc();
-  desc.diagnostic = contextDesc().diagnostic;
-  desc.user = contextDesc().user;
+  desc.diagnostics = contextDesc().diagnostics;
   Context* made = nullptr;
   ASSERT_EQ(createContext(desc, &made), Status::Ok);
   Tables* baked = nullptr;

@@ -94,11 +94,8 @@ TEST_F(StandardSkyTest, HooksServeAllMemory) {
   host.device = &device();
   ContextDesc desc = contextDesc();
   Context* made = nullptr;
-  {
-    const MemoryHooks hooks = host.hooks();  // Copied: gone after the call.
-    desc.memory = &hooks;
-    ASSERT_EQ(createContext(desc, &made), Status::Ok);
-  }
+  desc.memory = host.hooks();
+  ASSERT_EQ(createContext(desc, &made), Status::Ok);
   Tables* baked = nullptr;
   ASSERT_EQ(createTables(made, preset("earth"), smallTables(), &baked), Status::Ok);
   const size_t whileBaking = host.alive.size();
@@ -124,9 +121,8 @@ TEST_F(StandardSkyTest, HooksServeAllMemory) {
 TEST_F(StandardSkyTest, RefusingHooksLeaveNothing) {
   Hooks host;
   host.device = &device();
-  const MemoryHooks hooks = host.hooks();
   ContextDesc desc = contextDesc();
-  desc.memory = &hooks;
+  desc.memory = host.hooks();
   Context* made = nullptr;
   ASSERT_EQ(createContext(desc, &made), Status::Ok);
   for (int n = 0; n < 3; ++n) {
@@ -211,9 +207,8 @@ struct Pool {
 TEST_F(StandardSkyTest, MappedRangesShareOneMemory) {
   Pool pool;
   pool.dedicated.device = &device();
-  const MemoryHooks hooks = pool.hooks();
   ContextDesc desc = contextDesc();
-  desc.memory = &hooks;
+  desc.memory = pool.hooks();
   Context* made = nullptr;
   ASSERT_EQ(createContext(desc, &made), Status::Ok);
   Tables* first = nullptr;

@@ -42,8 +42,7 @@ class ShaderHookTest : public SkyTest {
   void SetUp() override {
     SkyTest::SetUp();
     ContextDesc desc = contextDesc();
-    const ShaderHook hook = replacement_.hook();
-    desc.shaders = &hook;  // Copied: it is gone when the first pipeline is made.
+    desc.shaders = replacement_.hook();
     ASSERT_EQ(createContext(desc, &hooked_), Status::Ok) << lastDiagnostic();
   }
   void TearDown() override {

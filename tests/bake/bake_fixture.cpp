@@ -20,7 +20,7 @@ void BakeTest::TearDown() {
 
 Parameters BakeTest::preset(const char* name) {
   Parameters parameters;
-  EXPECT_EQ(findPreset(name, &parameters), Status::Ok) << name;
+  EXPECT_EQ(findPreset(name, &parameters, {}), Status::Ok) << name;
   return parameters;
 }
 

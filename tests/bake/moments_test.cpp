@@ -4,6 +4,7 @@
 #include <random>
 
 #include "tests/bake/bake_fixture.h"
+#include "tests/model/heard.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -66,19 +67,19 @@ TEST_F(MomentsTest, ThePassesAreNamedAndCounted) {
 }
 
 TEST_F(MomentsTest, EveryPresetAndFormatIsFinite) {
-  for (uint32_t i = 0; i < presetCount(); ++i) {
+  for (const Preset& listed : testing::allPresets()) {
     for (TableFormat format : {TableFormat::Half, TableFormat::Float}) {
       TableDesc desc = tinyDesc(0);
       desc.format = format;
-      const TableCopies copies = readAll(bakeTables(preset(presetName(i)), desc));
+      const TableCopies copies = readAll(bakeTables(preset(listed.name), desc));
       for (const auto& [id, table] : copies) {
         bool good = true, lit = false;
         for (float v : table.values) {
           good = good && std::isfinite(v) && (v >= 0.0f || id == TableId::Moments);
           lit = lit || v > 0.0f;
         }
-        EXPECT_TRUE(good) << presetName(i) << " " << table.info.name;
-        EXPECT_TRUE(lit) << presetName(i) << " " << table.info.name << " is all zero";
+        EXPECT_TRUE(good) << listed.name << " " << table.info.name;
+        EXPECT_TRUE(lit) << listed.name << " " << table.info.name << " is all zero";
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "tests/bake/bake_fixture.h"
+#include "tests/model/heard.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -80,23 +81,23 @@ TEST_F(SlicingTest, ACallStaysInItsPassAndItsBudget) {
 }
 
 TEST_F(SlicingTest, EveryPresetFormatAndStorageIsFiniteAndNotNegative) {
-  for (uint32_t i = 0; i < presetCount(); ++i) {
+  for (const Preset& listed : testing::allPresets()) {
     for (TableFormat format : {TableFormat::Half, TableFormat::Float}) {
       for (MieStorage mie : {MieStorage::Full, MieStorage::Packed}) {
         TableDesc desc = tinyDesc();
         desc.format = format;
         desc.mie = mie;
         const TableCopies copies =
-            readAll(bakeTables(preset(presetName(i)), desc), mie == MieStorage::Packed);
+            readAll(bakeTables(preset(listed.name), desc), mie == MieStorage::Packed);
         for (const auto& [id, table] : copies) {
           bool good = true, lit = false;
           for (float v : table.values) {
             good = good && std::isfinite(v) && v >= 0.0f;
             lit = lit || v > 0.0f;
           }
-          EXPECT_TRUE(good) << presetName(i) << " " << table.info.name;
-          if (id != TableId::SingleMie || preset(presetName(i)).mie.present) {
-            EXPECT_TRUE(lit) << presetName(i) << " " << table.info.name << " is all zero";
+          EXPECT_TRUE(good) << listed.name << " " << table.info.name;
+          if (id != TableId::SingleMie || preset(listed.name).mie.present) {
+            EXPECT_TRUE(lit) << listed.name << " " << table.info.name << " is all zero";
           }
         }
       }

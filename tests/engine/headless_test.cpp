@@ -100,8 +100,8 @@ TEST(HeadlessTest, DefaultRequirementsNeedNoValidation) {
   EXPECT_FALSE(device->debugUtils());
   EXPECT_TRUE(device->validationMessages().empty());
   EXPECT_EQ(device->enabled().apiVersion, VK_API_VERSION_1_3);
-  EXPECT_TRUE(device->enabled().synchronization2);
-  EXPECT_TRUE(device->enabled().dynamicRendering);
+  EXPECT_TRUE(device->enabled().deviceFeatures & kFeatureSynchronization2);
+  EXPECT_TRUE(device->enabled().deviceFeatures & kFeatureDynamicRendering);
   EXPECT_EQ(device->enabled().features.geometryShader, VK_FALSE);
 }
 
@@ -115,7 +115,7 @@ TEST_F(HeadlessDeviceTest, EnablesWhatIsAskedFor) {
       });
   ASSERT_NE(made, nullptr);
   EXPECT_EQ(made->enabled().features.geometryShader, VK_TRUE);
-  EXPECT_TRUE(made->enabled().synchronization2);
+  EXPECT_TRUE(made->enabled().deviceFeatures & kFeatureSynchronization2);
 }
 
 TEST_F(HeadlessDeviceTest, FramesCountWhatFinished) {

@@ -213,8 +213,9 @@ TEST_F(ShaftErrorsTest, AirNeedsAFormatThatBlends) {
 TEST_F(ShaftErrorsTest, OnlyThePaperNeedsGeometryShaders) {
   Requirements exact, paper;
   const auto query = [&](CapabilityFlags wanted, Requirements* out) {
-    return queryRequirements(device().getInstanceProcAddr(), device().instance(),
-                             device().physicalDevice(), wanted, out, nullptr, nullptr);
+    ContextDesc desc = contextDesc();
+    desc.capabilities = wanted;
+    return queryRequirements(desc, out);
   };
   ASSERT_EQ(query(kCapabilityShafts, &exact), Status::Ok);
   ASSERT_EQ(query(kCapabilityShafts | kCapabilityShadowVolumes, &paper), Status::Ok);

@@ -107,7 +107,7 @@ void ShaftTest::addCaster(const reference::test::Mesh& mesh) {
   view.vertexCount = static_cast<uint32_t>(positions.size() / 3);
   view.indices = mesh.indices.data();
   view.indexCount = static_cast<uint32_t>(mesh.indices.size());
-  ASSERT_EQ(buildAdjacency(view, adjacency.data(), nullptr, nullptr, nullptr), Status::Ok);
+  ASSERT_EQ(buildAdjacency(view, adjacency.data(), nullptr, {}), Status::Ok);
 
   CasterBuffers& b = buffers_.emplace_back();
   b.indexCount = static_cast<uint32_t>(adjacency.size());

@@ -45,7 +45,7 @@ TableDesc smallTables(MieStorage mie) {
 
 Parameters preset(const char* name) {
   Parameters parameters;
-  EXPECT_EQ(findPreset(name, &parameters), Status::Ok) << name;
+  EXPECT_EQ(findPreset(name, &parameters, {}), Status::Ok) << name;
   return parameters;
 }
 
@@ -158,7 +158,7 @@ Context* SkyTest::context() {
   desc.getInstanceProcAddr = s.vulkan->getInstanceProcAddr();
   desc.capabilities = kCapabilityBake | kCapabilitySky | kCapabilityAir | kCapabilityShafts |
                       kCapabilityShadowVolumes;
-  desc.diagnostic = [](void*, const Diagnostic& diagnostic) {
+  desc.diagnostics.report = [](void*, const Diagnostic& diagnostic) {
     shared().message = diagnostic.message;
   };
   EXPECT_EQ(createContext(desc, &s.context), Status::Ok) << message();

@@ -105,7 +105,8 @@ class Device {
   const std::string& name() const;
   bool debugUtils() const;  ///< VK_EXT_debug_utils is enabled (with validation).
 
-  /// A description of a context on this device, ready for createContext; `diagnostic` is left null.
+  /// A description of a context on this device, ready for createContext; `diagnostics` is left
+  /// null.
   ContextDesc contextDesc() const;
 
   /// Begins a command buffer, lets `record` fill it, submits and waits. False when `record` returns
