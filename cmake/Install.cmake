@@ -5,10 +5,10 @@ include(CMakePackageConfigHelpers)
 set(share "${CMAKE_INSTALL_DATADIR}/alpenglow")
 set(package "${CMAKE_INSTALL_LIBDIR}/cmake/Alpenglow")
 
-# alpenglow_options is empty outside of the build tree; it is exported because CMake lists what a
-# static library was linked to.
-install(TARGETS alpenglow_headers alpenglow_options alpenglow_glsl alpenglow_atmosphere
-                alpenglow_headless alpenglow_reference
+# alpenglow_options and alpenglow_internal are empty outside of the build tree; they are exported
+# because CMake lists what a static library was linked to.
+install(TARGETS alpenglow_headers alpenglow_options alpenglow_internal alpenglow_glsl
+                alpenglow_atmosphere alpenglow_headless alpenglow_reference
         EXPORT AlpenglowTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
         LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")

@@ -39,15 +39,20 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 
 add_library(alpenglow_options INTERFACE)
 target_compile_features(alpenglow_options INTERFACE $<BUILD_INTERFACE:cxx_std_20>)
-target_include_directories(alpenglow_options INTERFACE
-  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/atmosphere/include>
-  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/engine/headless/include>)
 set(gnu_like $<OR:$<CXX_COMPILER_ID:GNU>,$<CXX_COMPILER_ID:Clang>,$<CXX_COMPILER_ID:AppleClang>>)
 target_compile_options(alpenglow_options INTERFACE
   $<BUILD_INTERFACE:$<${gnu_like}:-Wall;-Wextra;-Wconversion;-Wshadow>>
   $<BUILD_INTERFACE:$<${gnu_like}:-fPIC;-fvisibility=hidden;-fvisibility-inlines-hidden>>
   $<BUILD_INTERFACE:$<$<AND:${gnu_like},$<BOOL:${ALPENGLOW_WARNINGS_AS_ERRORS}>>:-Werror>>)
+
+# What the library's own rooms and the tests see besides: every header, by its path from the top. The
+# samples don't: they link the libraries as any user does.
+add_library(alpenglow_internal INTERFACE)
+target_link_libraries(alpenglow_internal INTERFACE alpenglow_options)
+target_include_directories(alpenglow_internal INTERFACE
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/atmosphere/include>
+  $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/engine/headless/include>)
 
 # The headers a host includes, as a target: what our own libraries hand on to their users.
 add_library(alpenglow_headers INTERFACE)

@@ -24,7 +24,7 @@ function(alpenglow_add_test)
     set(arg_TIMEOUT 300)
   endif()
   add_executable(${arg_NAME} ${arg_SOURCES})
-  target_link_libraries(${arg_NAME} PRIVATE alpenglow_options ${arg_LIBS} GTest::gtest
+  target_link_libraries(${arg_NAME} PRIVATE alpenglow_internal ${arg_LIBS} GTest::gtest
                                             GTest::gtest_main)
   set(environment "VK_DRIVER_FILES=${ALPENGLOW_TEST_DRIVER}")
   alpenglow_register_test("" "${environment}")

@@ -1,6 +1,5 @@
 #include "engine/deletion_queue.h"
 
-#include <algorithm>
 #include <cinttypes>
 #include <new>
 
@@ -50,7 +49,6 @@ void DeletionQueue::destroy(const Entry& entry) {
 
 void DeletionQueue::collect(uint64_t completed) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  completed_ = std::max(completed_, completed);
   // Views have frames of their own, so the numbers needn't rise from entry to entry.
   size_t kept = 0;
   for (size_t i = 0; i < entries_.size(); ++i) {
@@ -64,11 +62,6 @@ void DeletionQueue::collect(uint64_t completed) {
 }
 
 void DeletionQueue::destroyAll() { collect(UINT64_MAX); }
-
-uint64_t DeletionQueue::completed() const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return completed_;
-}
 
 size_t DeletionQueue::size() const {
   const std::lock_guard<std::mutex> lock(mutex_);

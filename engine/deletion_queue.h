@@ -33,8 +33,6 @@ class DeletionQueue {
   void collect(uint64_t completed);
   /// Destroys everything: the caller guarantees that the GPU is done with it.
   void destroyAll();
-  /// The newest frame that a `collect` has said to have completed; 0: none.
-  uint64_t completed() const;
   /// How many objects and blocks are waiting.
   size_t size() const;
 
@@ -52,7 +50,6 @@ class DeletionQueue {
   Device& device_;
   mutable std::mutex mutex_;
   std::vector<Entry> entries_;
-  uint64_t completed_ = 0;
 };
 
 }  // namespace alpenglow::engine

@@ -35,8 +35,8 @@ Status checkHandles(const DeviceDesc& desc) {
   if (desc.physicalDevice == VK_NULL_HANDLE) missing = "physicalDevice";
   if (desc.instance == VK_NULL_HANDLE) missing = "instance";
   if (missing != nullptr) {
-    return refuse(desc, Status::InvalidArgument,
-                  "%s::%s is null, but the host's own is expected.", desc.name, missing);
+    return refuse(desc, Status::InvalidArgument, "%s::%s is null, but the host's own is expected.",
+                  desc.name, missing);
   }
   return Status::Ok;
 }

@@ -12,6 +12,7 @@
 
 #include "engine/deletion_queue.h"
 #include "engine/dispatch.h"
+#include "engine/frames.h"
 #include "engine/requirements.h"
 #include "engine/result.h"
 
@@ -113,6 +114,7 @@ class Device {
   const FeatureSet& enabled() const { return desc_.enabled; }
   const MemoryHooks* memoryHooks() const { return hooks_.allocate != nullptr ? &hooks_ : nullptr; }
   const ShaderReplacement& shaderReplacement() const { return shaderReplacement_; }
+  DiagnosticSink sink() const { return {desc_.diagnostic, desc_.user}; }
   /// What the host calls the description of this device.
   const char* descName() const { return desc_.name; }
   /// The families that share our images and buffers; more than one means concurrent.
@@ -152,6 +154,9 @@ class Device {
   }
 
   DeletionQueue& deletions() { return deletions_; }
+  FrameList& frames() { return frames_; }
+  uint64_t submitting() const { return frames_.submitting(); }  ///< The frame that is recorded now.
+  uint64_t completed() const { return frames_.completed(); }    ///< The newest that has finished.
   Counters& counters() { return counters_; }
   const Counters& counters() const { return counters_; }
   /// Counts a pipeline, and its shader variant when no pipeline had this key before.
@@ -170,6 +175,7 @@ class Device {
   VkPhysicalDeviceProperties properties_ = {};
   VkPhysicalDeviceMemoryProperties memoryProperties_ = {};
   Counters counters_;
+  FrameList frames_;
   DeletionQueue deletions_;
   std::mutex variantsMutex_;
   std::vector<uint64_t> variants_;  ///< Sorted keys.

@@ -19,19 +19,22 @@ struct ImageDesc {
   const char* name = "";     ///< Copied; for error sentences and debug names.
 };
 
-struct Image {
-  VkImage handle = VK_NULL_HANDLE;
-  VkImageView view = VK_NULL_HANDLE;  ///< All levels and layers; made when memory is bound.
-  ImageDesc desc;                     ///< Its name points to nothing: use Image::name.
-  char name[48] = "";
-  uint64_t bytes = 0;  ///< Of its memory requirements.
-
+/// What barriers know of an image.
+struct ImageTrack {
   /// The state that commands recorded so far leave behind: the layout, and the last writer or all
   /// readers since. Barriers keeps it up to date; it follows recording order, so command buffers
   /// must be submitted in the order in which they were recorded.
   ImageState state;
   VkPipelineStageFlags2 writeStage = VK_PIPELINE_STAGE_2_NONE;  ///< Of the last write.
   VkAccessFlags2 writeAccess = VK_ACCESS_2_NONE;
+};
+
+struct Image : ImageTrack {
+  VkImage handle = VK_NULL_HANDLE;
+  VkImageView view = VK_NULL_HANDLE;  ///< All levels and layers; made when memory is bound.
+  ImageDesc desc;                     ///< Its name points to nothing: use Image::name.
+  char name[48] = "";
+  uint64_t bytes = 0;  ///< Of its memory requirements.
 };
 
 /// Makes the VkImage; memory and view come with allocateAndBind. Unsupported, with a sentence, when

@@ -1,5 +1,6 @@
 #include "engine/requirements.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 
@@ -61,21 +62,23 @@ class GapList {
   int count_ = 0;
 };
 
+/// `what` stands before "Vulkan".
+void addVersionGap(const char* what, uint32_t needed, uint32_t offered, GapList* gaps) {
+  if (offered >= needed) return;
+  char version[64];
+  std::snprintf(version, sizeof(version), "%sVulkan %u.%u (it is %u.%u)", what,
+                VK_API_VERSION_MAJOR(needed), VK_API_VERSION_MINOR(needed),
+                VK_API_VERSION_MAJOR(offered), VK_API_VERSION_MINOR(offered));
+  gaps->add(version);
+}
+
 GapList listGaps(const FeatureSet& needed, const FeatureSet& offered) {
   GapList gaps;
-  if (offered.apiVersion < needed.apiVersion) {
-    char version[64];
-    std::snprintf(version, sizeof(version), "Vulkan %u.%u (it is %u.%u)",
-                  VK_API_VERSION_MAJOR(needed.apiVersion), VK_API_VERSION_MINOR(needed.apiVersion),
-                  VK_API_VERSION_MAJOR(offered.apiVersion),
-                  VK_API_VERSION_MINOR(offered.apiVersion));
-    gaps.add(version);
-  }
+  addVersionGap("", needed.apiVersion, offered.apiVersion, &gaps);
   if (needed.synchronization2 && !offered.synchronization2) gaps.add("synchronization2");
   if (needed.dynamicRendering && !offered.dynamicRendering) gaps.add("dynamicRendering");
   for (const Feature& feature : kFeatures) {
-    if (needed.core.*feature.member != VK_FALSE &&
-        offered.core.*feature.member == VK_FALSE) {
+    if (needed.core.*feature.member != VK_FALSE && offered.core.*feature.member == VK_FALSE) {
       gaps.add(feature.name);
     }
   }
@@ -91,8 +94,8 @@ Status report(DiagnosticFn diagnostic, void* user, Status status, const char* be
 }
 
 /// What the device has; the newer features are asked for only where it knows their struct.
-FeatureSet offeredBy(PFN_vkGetPhysicalDeviceFeatures2 getFeatures2,
-                     VkPhysicalDevice physicalDevice, uint32_t apiVersion) {
+FeatureSet offeredBy(PFN_vkGetPhysicalDeviceFeatures2 getFeatures2, VkPhysicalDevice physicalDevice,
+                     uint32_t apiVersion) {
   auto features13 = structure<VkPhysicalDeviceVulkan13Features>(
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
   auto features =
@@ -107,11 +110,21 @@ FeatureSet offeredBy(PFN_vkGetPhysicalDeviceFeatures2 getFeatures2,
   return offered;
 }
 
+/// Of the Vulkan loader; `unknown` where it doesn't say: loaders of Vulkan 1.0 don't have the
+/// function, and neither do hosts' own that know the functions of an instance alone.
+uint32_t loaderVersion(PFN_vkGetInstanceProcAddr getInstanceProcAddr, uint32_t unknown) {
+  const auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceVersion>(
+      getInstanceProcAddr(VK_NULL_HANDLE, "vkEnumerateInstanceVersion"));
+  uint32_t version = 0;
+  return enumerate != nullptr && enumerate(&version) == VK_SUCCESS ? version : unknown;
+}
+
 }  // namespace
 
 Status checkPhysicalDevice(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
                            VkPhysicalDevice physicalDevice, const FeatureSet& needed,
-                           DiagnosticFn diagnostic, void* user) {
+                           DiagnosticFn diagnostic, void* user, FeatureSet* offered) {
+  if (offered != nullptr) *offered = {};
   const char* null = nullptr;
   if (physicalDevice == VK_NULL_HANDLE) null = "physicalDevice";
   if (instance == VK_NULL_HANDLE) null = "instance";
@@ -132,11 +145,25 @@ Status checkPhysicalDevice(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInst
   }
   VkPhysicalDeviceProperties properties = {};
   getProperties(physicalDevice, &properties);
-  const FeatureSet offered = offeredBy(getFeatures2, physicalDevice, properties.apiVersion);
-  const GapList gaps = listGaps(needed, offered);
-  if (gaps.empty()) return Status::Ok;
+  const uint32_t loader = loaderVersion(getInstanceProcAddr, properties.apiVersion);
+  const uint32_t version = std::min(loader, properties.apiVersion);
+  const FeatureSet found = offeredBy(getFeatures2, physicalDevice, version);
+  if (offered != nullptr) *offered = found;
+  if (offersAll(found, needed)) return Status::Ok;
+  GapList gaps;
+  addVersionGap("", needed.apiVersion, properties.apiVersion, &gaps);
+  addVersionGap("a loader of ", needed.apiVersion, loader, &gaps);
+  FeatureSet features = needed;
+  if (!gaps.empty()) features.synchronization2 = features.dynamicRendering = false;
+  features.apiVersion = 0;  // Said already.
+  const GapList more = listGaps(features, found);
+  if (!more.empty()) gaps.add(more.text());
   return report(diagnostic, user, Status::Unsupported, "The device \"", properties.deviceName,
                 "\" lacks what is needed: ", gaps.text());
+}
+
+bool offersAll(const FeatureSet& offered, const FeatureSet& needed) {
+  return listGaps(needed, offered).empty();
 }
 
 Status checkEnabled(const FeatureSet& needed, const FeatureSet& enabled, const char* owner,

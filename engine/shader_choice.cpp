@@ -41,7 +41,8 @@ Status compare(const Device& device, const Shader& shader, const SpirvInterface&
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
                        "The host's code for shader \"%s\" (%s::shaders) declares %s at set %u, "
                        "binding %u, where the library's own has no such thing.",
-                       shader.name, device.descName(), kindName(resource.kind), resource.set, resource.binding);
+                       shader.name, device.descName(), kindName(resource.kind), resource.set,
+                       resource.binding);
   }
   return Status::Ok;
 }

@@ -11,7 +11,7 @@ packages=(
   nlohmann-json3-dev libcli11-dev pkg-config libcairo2-dev
   libglfw3-dev libimgui-dev
   # what the tests use: software Vulkan, its validation layers, a second loader
-  libgtest-dev mesa-vulkan-drivers vulkan-validationlayers libvulkan-volk-dev
+  python3 libgtest-dev mesa-vulkan-drivers vulkan-validationlayers libvulkan-volk-dev
   # what the viewer's tests use: a display without a monitor, and keys pressed on it
   xvfb xdotool
 )

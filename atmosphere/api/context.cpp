@@ -1,7 +1,9 @@
+#include <cinttypes>
 #include <new>
 
 #include "atmosphere/api/context_impl.h"
 #include "atmosphere/api/device_desc.h"
+#include "atmosphere/model/sentence.h"
 
 namespace alpenglow {
 inline namespace v1 {
@@ -32,10 +34,13 @@ const char* capabilityName(CapabilityFlags capability) {
 // Each capability asks for what it alone needs.
 Requirements requirementsOf(CapabilityFlags wanted) {
   Requirements needed;
+  if (wanted == 0) return needed;
   needed.apiVersion = VK_API_VERSION_1_3;
-  needed.synchronization2 = true;
+  needed.capabilities = wanted;
+  needed.deviceFeatures = kFeatureSynchronization2;
   const bool volumes = (wanted & kCapabilityShadowVolumes) != 0;
-  needed.dynamicRendering = (wanted & (kCapabilitySky | kCapabilityShafts)) != 0;
+  if ((wanted & (kCapabilitySky | kCapabilityShafts)) != 0)
+    needed.deviceFeatures |= kFeatureDynamicRendering;
   needed.features.dualSrcBlend = (wanted & kCapabilityAir) != 0;
   needed.features.depthClamp = (wanted & kCapabilityShafts) != 0;
   needed.features.geometryShader = volumes;
@@ -44,49 +49,61 @@ Requirements requirementsOf(CapabilityFlags wanted) {
   return needed;
 }
 
-Status reportTo(DiagnosticFn diagnostic, void* user, Status status, const char* message) {
-  if (diagnostic != nullptr) diagnostic(user, {Severity::Error, status, VK_SUCCESS, message});
-  return status;
+/// Of those wanted, what a device with these features has.
+CapabilityFlags capabilitiesOf(const engine::FeatureSet& offered, CapabilityFlags wanted) {
+  CapabilityFlags has = 0;
+  for (CapabilityFlags one = 1; one <= kAllCapabilities; one <<= 1) {
+    const bool asked = (wanted & one) != 0;
+    if (asked && engine::offersAll(offered, featureSet(requirementsOf(one)))) has |= one;
+  }
+  // Shadow volumes are a method of light shafts.
+  if ((wanted & ~has & kCapabilityShafts) != 0) has &= ~CapabilityFlags{kCapabilityShadowVolumes};
+  return has;
+}
+
+Status checkCapabilities(const ContextDesc& desc) {
+  if ((desc.capabilities & ~kAllCapabilities) == 0) return Status::Ok;
+  return model::report(desc.diagnostics, Status::InvalidArgument,
+                       model::Sentence()
+                           << "ContextDesc::capabilities is " << desc.capabilities
+                           << ", but may have no bits besides " ALPENGLOW_CAPABILITY_NAMES ".");
 }
 
 }  // namespace
 
-Status queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
-                         VkPhysicalDevice physicalDevice, CapabilityFlags wanted, Requirements* out,
-                         DiagnosticFn diagnostic, void* user) {
-  if (out == nullptr || (wanted & ~kAllCapabilities) != 0) {
-    return reportTo(diagnostic, user, Status::InvalidArgument,
-                    "queryRequirements needs a place for its answer and capabilities "
-                    "among " ALPENGLOW_CAPABILITY_NAMES ".");
-  }
-  *out = requirementsOf(wanted == 0 ? kDefaultCapabilities : wanted);
-  return engine::checkPhysicalDevice(getInstanceProcAddr, instance, physicalDevice,
-                                     featureSet(*out), diagnostic, user);
+Status queryRequirements(const ContextDesc& desc, Requirements* out) {
+  const DiagnosticSink& sink = desc.diagnostics;
+  if (out == nullptr) return model::reportNull(sink, "queryRequirements", "the requirements");
+  if (Status status = checkCapabilities(desc); status != Status::Ok) return status;
+  const CapabilityFlags wanted = desc.capabilities == 0 ? kDefaultCapabilities : desc.capabilities;
+  const Requirements needed = requirementsOf(wanted);
+  engine::FeatureSet offered;
+  const Status status =
+      engine::checkPhysicalDevice(desc.getInstanceProcAddr, desc.instance, desc.physicalDevice,
+                                  featureSet(needed), sink.report, sink.user, &offered);
+  // `out` may be the description's own `enabled`.
+  if (status == Status::Ok) *out = needed;
+  if (status == Status::Unsupported) *out = requirementsOf(capabilitiesOf(offered, wanted));
+  return status;
 }
 
 Status createContext(const ContextDesc& desc, Context** out) {
-  if (out == nullptr) {
-    return reportTo(desc.diagnostic, desc.user, Status::InvalidArgument,
-                    "createContext needs a place for the context, but got null.");
-  }
+  if (out == nullptr) return model::reportNull(desc.diagnostics, "createContext", "the context");
   *out = nullptr;
-  if ((desc.capabilities & ~kAllCapabilities) != 0) {
-    return reportTo(
-        desc.diagnostic, desc.user, Status::InvalidArgument,
-        "ContextDesc::capabilities has unknown bits, but only " ALPENGLOW_CAPABILITY_NAMES
-        " exist.");
-  }
+  if (Status status = checkCapabilities(desc); status != Status::Ok) return status;
   auto* context = new (std::nothrow) Context;
   if (context == nullptr) {
-    return reportTo(desc.diagnostic, desc.user, Status::OutOfHostMemory,
-                    "A context found no host memory.");
+    return model::report(desc.diagnostics, Status::OutOfHostMemory,
+                         "A context found no host memory.");
   }
   context->capabilities = desc.capabilities == 0 ? kDefaultCapabilities : desc.capabilities;
   Requirements needed = requirementsOf(context->capabilities);
   // A host may draw in render passes: createView asks. Shafts have scopes of their own.
-  needed.dynamicRendering = (context->capabilities & kCapabilityShafts) != 0;
+  if ((context->capabilities & kCapabilityShafts) == 0)
+    needed.deviceFeatures &= ~DeviceFeatureFlags{kFeatureDynamicRendering};
   Status status = createDevice(desc, needed, &context->device);
-  if (status == Status::Ok) status = bake::Resources::create(*context->device, &context->bake);
+  if (status == Status::Ok)
+    status = bake::Resources::create(*context->device, context->live, &context->bake);
   if (status == Status::Ok) context->bake->context = context;
   if (status == Status::Ok && (context->capabilities & kCapabilityBake) != 0)
     status = sky::ProbePass::create(*context->bake, &context->probe);
@@ -100,23 +117,43 @@ Status createContext(const ContextDesc& desc, Context** out) {
 
 void destroyContext(Context* context) {
   if (context == nullptr) return;
-  if (context->bake != nullptr) {
-    const uint32_t tables = context->bake->liveTables, views = context->bake->liveViews;
-    if (tables != 0 || views != 0) {
-      context->device->notice(Severity::Warning,
-                              "The context is destroyed before %u Tables and %u View objects of "
-                              "it, but must be the last: what they hold is lost.",
-                              tables, views);
-    }
-  }
+  if (context->device != nullptr) context->device->frames().destroyAll();
   sky::ProbePass::destroy(context->probe);
   bake::Resources::destroy(context->bake);
   engine::Device::destroy(context->device);
   delete context;
 }
 
-void collect(Context* context, uint64_t completed) {
-  if (context != nullptr) context->device->deletions().collect(completed);
+Status advanceFrame(Context* context, uint64_t submitting, uint64_t completed) {
+  if (context == nullptr) return Status::InvalidArgument;
+  engine::Device& device = *context->device;
+  const uint64_t submittingBefore = device.submitting(), completedBefore = device.completed();
+  if (submitting == 0 || completed > submitting || submitting < submittingBefore ||
+      completed < completedBefore) {
+    const char* rule = submitting == 0          ? "the frame being recorded counts from 1"
+                       : completed > submitting ? "no frame completes before it is recorded"
+                                                : "neither number falls";
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "advanceFrame got submitting %" PRIu64 " and completed %" PRIu64
+                       " after %" PRIu64 " and %" PRIu64 ", but %s.",
+                       submitting, completed, submittingBefore, completedBefore, rule);
+  }
+  device.frames().advance(submitting, completed);
+  device.deletions().collect(completed);
+  return Status::Ok;
+}
+
+Status abandonFrame(Context* context, uint64_t frame) {
+  if (context == nullptr) return Status::InvalidArgument;
+  engine::Device& device = *context->device;
+  if (frame <= device.completed() || frame > device.submitting()) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "abandonFrame got frame %" PRIu64 ", but needs one above the completed %" PRIu64
+                       " and not above the one being recorded, %" PRIu64 ".",
+                       frame, device.completed(), device.submitting());
+  }
+  device.frames().abandon(frame);
+  return Status::Ok;
 }
 
 void resourceReport(const Context* context, ResourceReport* out) {

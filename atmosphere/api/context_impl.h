@@ -12,6 +12,7 @@ inline namespace v1 {
 struct Context {
   engine::Device* device = nullptr;
   CapabilityFlags capabilities = 0;
+  bake::LiveObjects live;
   bake::Resources* bake = nullptr;  ///< Layouts that every capability needs.
   sky::ProbePass* probe = nullptr;  ///< Only with kCapabilityBake.
 };
@@ -22,10 +23,6 @@ Status requireCapability(const Context& context, CapabilityFlags capability, con
 /// InvalidArgument, with a sentence where there is a context, or tables of one, to say it.
 Status nullArgument(const Context* context, const char* call);
 Status nullArgument(const Tables* tables, const char* call);
-/// InvalidArgument with a sentence unless `frame` may be recorded.
-Status checkFrame(const Tables& tables, const FrameInfo& frame, const char* call);
-/// The context's diagnostic, for what takes one.
-DiagnosticSink sinkOf(const Context& context);
 
 }  // namespace v1
 }  // namespace alpenglow

@@ -6,15 +6,15 @@ inline namespace v1 {
 engine::FeatureSet featureSet(const Requirements& requirements) {
   engine::FeatureSet set;
   set.apiVersion = requirements.apiVersion;
-  set.synchronization2 = requirements.synchronization2;
-  set.dynamicRendering = requirements.dynamicRendering;
+  set.synchronization2 = (requirements.deviceFeatures & kFeatureSynchronization2) != 0;
+  set.dynamicRendering = (requirements.deviceFeatures & kFeatureDynamicRendering) != 0;
   set.core = requirements.features;
   return set;
 }
 
 Status createDevice(const ContextDesc& desc, const Requirements& needed, engine::Device** out) {
-  engine::ShaderReplacement shaders;
-  if (desc.shaders != nullptr) shaders = {desc.shaders->user, desc.shaders->replace};
+  const engine::ShaderReplacement shaders = {desc.shaders.user, desc.shaders.replace};
+  const MemoryHooks& memory = desc.memory;
   engine::DeviceDesc device;
   device.name = "ContextDesc";
   device.instance = desc.instance;
@@ -27,10 +27,10 @@ Status createDevice(const ContextDesc& desc, const Requirements& needed, engine:
   device.queueFamilyCount = desc.queueFamilyCount;
   device.pipelineCache = desc.pipelineCache;
   device.allocator = desc.allocator;
-  device.memory = desc.memory;
+  if (memory.allocate != nullptr || memory.free != nullptr) device.memory = &memory;
   device.shaders = &shaders;
-  device.diagnostic = desc.diagnostic;
-  device.user = desc.user;
+  device.diagnostic = desc.diagnostics.report;
+  device.user = desc.diagnostics.user;
   device.debugNames = desc.debugNames;
   return engine::Device::create(device, out);
 }

@@ -2,9 +2,6 @@
 // really planning tables and views both ways.
 #include <alpenglow/plan.h>
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
 #include <new>
 #include <string_view>
 
@@ -19,14 +16,22 @@
 namespace alpenglow {
 namespace {
 
-/// Of lavapipe on 2 cores: half of the 0.97 cpu-s that earth takes at medium (docs/accuracy.md),
-/// over its 2.11e8 units.
-constexpr double kSecondsPerUnit = 2.3e-9;
-/// ShaftsDesc::sunMapSize as it is left; images of the picture's size are the host's to tell.
-constexpr uint32_t kSunMapSize = 2048;
+using plan::add;
+using plan::choiceOf;
+using plan::difference;
 
-bake::SolverPlan tablePlan(const Parameters& parameters, const TableDesc& completed) {
-  return solverPlan(parameters, completed, TableFormat::Float);
+/// A plan's tables with everything that its description leaves open.
+struct Completed {
+  Parameters parameters;
+  TableDesc desc;
+};
+Completed completedTables(const Parameters& parameters, const Plan& plan) {
+  const Parameters air = bake::simulated(parameters, plan.tables.disabledEffects);
+  return {air, bake::completed(air, plan.tables)};
+}
+
+bake::SolverPlan solverPlanOf(const Completed& tables) {
+  return solverPlan(tables.parameters, tables.desc, TableFormat::Float);
 }
 
 PlanCost tableCost(const bake::SolverPlan& plan) {
@@ -34,118 +39,80 @@ PlanCost tableCost(const bake::SolverPlan& plan) {
   return {c.bytes, c.bakeBytes, c.texels, c.images, c.pipelines, c.dispatches, c.units};
 }
 
+/// As far as its costs go.
 ViewDesc viewOf(const Plan& plan) {
   ViewDesc view;
-  describeView(plan, &view);
-  view.projection = plan.needs.projection;
+  view.solver = plan.tables.solver;
+  view.mie = plan.tables.mie;
+  view.without = plan.viewWithout;
+  view.alwaysSliced = plan.skySlice;
+  view.projection = plan.request.projection;
   return view;
 }
 
-bool sliced(const Plan& plan) { return plan.skySlice && hasSkySlice(plan.tableDesc.solver); }
-
-constexpr uint64_t PlanCost::*kCosts[] = {
-    &PlanCost::bytes,     &PlanCost::bakeBytes,  &PlanCost::texels, &PlanCost::images,
-    &PlanCost::pipelines, &PlanCost::dispatches, &PlanCost::units};
-static_assert(sizeof(PlanCost) == std::size(kCosts) * sizeof(uint64_t));
-
-void add(PlanCost* to, const PlanCost& more) {
-  for (const auto cost : kCosts) to->*cost += more.*cost;
-}
-
-PlanCost difference(const PlanCost& more, const PlanCost& less) {
-  PlanCost result;
-  for (const auto cost : kCosts)
-    result.*cost = more.*cost > less.*cost ? more.*cost - less.*cost : 0;
-  return result;
-}
-
-// The map from the sun; one draw of casters and the surface between light and shadow from tables
-// and from an air volume, and the culling of its blocks.
-PlanCost shaftCost(const Plan& plan) {
-  PlanCost cost;
-  if (!plan.shafts) return cost;
-  cost.images = 1;
-  cost.texels = uint64_t{kSunMapSize} * kSunMapSize;
-  cost.bytes = cost.texels * 4;
-  cost.pipelines = 3 + (plan.skySlice ? 1 : 0);
-  cost.dispatches = 1;
-  return cost;
-}
+bool sliced(const Plan& plan) { return plan.skySlice && hasSkySlice(plan.tables.solver); }
 
 PlanCost costOf(const Parameters& parameters, const Plan& plan) {
-  PlanCost cost;
-  const Parameters air = bake::simulated(parameters, plan.tableDesc.disabledEffects);
-  const TableDesc full = bake::completed(air, plan.tableDesc);
-  cost = tableCost(tablePlan(air, full));
-  add(&cost, sky::viewCost(full, viewOf(plan), sliced(plan), plan.sceneDepth));
-  add(&cost, shaftCost(plan));
+  const Completed tables = completedTables(parameters, plan);
+  PlanCost cost = tableCost(solverPlanOf(tables));
+  add(&cost, sky::viewCost(tables.desc, viewOf(plan), sliced(plan), plan.sceneDepth));
+  add(&cost, plan::shaftCost(plan));
   return cost;
 }
 
-void listTables(const Parameters& parameters, Plan* plan) {
-  plan->tableCount = 0;
-  const Parameters air = bake::simulated(parameters, plan->tableDesc.disabledEffects);
-  const TableDesc full = bake::completed(air, plan->tableDesc);
-  const bake::SolverPlan tables = tablePlan(air, full);
-  for (const bake::PlanImage& image : tables.images) {
+void listImages(const Parameters& parameters, Plan* plan) {
+  plan->imageCount = 0;
+  const auto append = [plan](const ImageInfo& image) { plan->images[plan->imageCount++] = image; };
+  const Completed tables = completedTables(parameters, *plan);
+  const bake::SolverPlan solver = solverPlanOf(tables);
+  for (const bake::PlanImage& image : solver.images) {
     if (!image.persistent) continue;
-    const VkExtent3D& e = image.extent;
-    plan->tables[plan->tableCount++] = {bake::shortName(image), e.width, e.height, e.depth,
-                                        bake::bytesOf(image)};
+    ImageInfo info;
+    info.name = bake::shortName(image);
+    info.extent = image.extent;
+    info.bytes = bake::bytesOf(image);
+    append(info);
   }
-  PlanTable views[sky::kMaxViewTables];
+  ImageInfo views[sky::kMaxViewImages];
   const uint32_t count =
-      sky::viewTables(full, viewOf(*plan), sliced(*plan), plan->sceneDepth, views);
-  for (uint32_t i = 0; i < count; ++i) plan->tables[plan->tableCount++] = views[i];
-  if (plan->shafts) {
-    plan->tables[plan->tableCount++] = {"sun map", kSunMapSize, kSunMapSize, 1,
-                                        uint64_t{kSunMapSize} * kSunMapSize * 4};
-  }
-}
-
-bool withinBudget(const Plan& plan) {
-  const Needs& needs = plan.needs;
-  const double unit = needs.secondsPerUnit > 0.0 ? needs.secondsPerUnit : kSecondsPerUnit;
-  return (needs.budgetBytes == 0 || plan.cost.bytes <= needs.budgetBytes) &&
-         (needs.budgetSeconds == 0.0 ||
-          static_cast<double>(plan.cost.units) * unit <= needs.budgetSeconds);
+      sky::viewImages(tables.desc, viewOf(*plan), sliced(*plan), plan->sceneDepth, views);
+  for (uint32_t i = 0; i < count; ++i) append(views[i]);
+  if (plan->shafts) append(plan::shadowMapImage());
 }
 
 // Lowers the level until everything fits; what the host gave is kept.
-void fitBudget(const Parameters& parameters, const TableDesc& base, Plan* plan) {
-  plan->cost = costOf(parameters, *plan);
-  while (!withinBudget(*plan) && base.solver == Solver::Moments &&
-         base.quality == Quality::Default && plan->tableDesc.quality > Quality::Draft) {
-    const auto lower = static_cast<uint32_t>(plan::levelOf(plan->tableDesc.quality)) - 1;
+void fitBudget(const Parameters& parameters, Plan* plan) {
+  const TableDesc& base = plan->request.tables;
+  plan::setCost(costOf(parameters, *plan), plan);
+  while (!plan->budgetMet && base.solver == Solver::Moments && base.quality == Quality::Default &&
+         plan->tables.quality > Quality::Draft) {
+    const auto lower = static_cast<uint32_t>(plan::levelOf(plan->tables.quality)) - 1;
     plan::setQuality(parameters, static_cast<Quality>(lower), plan);
-    plan->cost = costOf(parameters, *plan);
+    plan::setCost(costOf(parameters, *plan), plan);
   }
-  plan->budgetMet = withinBudget(*plan);
 }
 
-PlanCost savedBy(const Parameters& parameters, const TableDesc& base, const Plan& plan,
-                 Effect effect) {
+PlanCost savedBy(const Parameters& parameters, const Plan& plan, Effect effect) {
   Plan other = plan;
-  other.effects[static_cast<uint32_t>(effect)].on = true;
+  choiceOf(&other, effect).on = true;
   // Shafts are of the air before a scene.
-  if (effect == Effect::LightShafts)
-    other.effects[static_cast<uint32_t>(Effect::AerialPerspective)].on = true;
-  plan::applyEffects(parameters, base, &other);
+  if (effect == Effect::LightShafts) choiceOf(&other, Effect::AerialPerspective).on = true;
+  plan::applyEffects(parameters, &other);
   return difference(costOf(parameters, other), plan.cost);
 }
 
 // Against the default of each choice.
 void priceChoices(const Parameters& parameters, Plan* plan) {
-  for (uint32_t i = 0; i < plan->choiceCount; ++i) {
+  for (uint32_t i = kEffectCount; i < plan->choiceCount; ++i) {
     PlanChoice& choice = plan->choices[i];
     Plan other = *plan;
     const std::string_view name = choice.name;
     if (name == "sun_zenith") {
-      other.tableDesc.sunZenithFrom = other.tableDesc.sunZenithTo = 0.0;
+      other.tables.sunZenithFrom = other.tables.sunZenithTo = 0.0;
     } else if (name == "optical_depths") {
-      other.tableDesc.sizes.depthMu = other.tableDesc.sizes.depthH = 0;
+      other.tables.sizes.depthMu = other.tables.sizes.depthH = 0;
     } else if (name == "quality") {
-      other.tableDesc.quality = Quality::Medium;
+      other.tables.quality = Quality::Medium;
     } else {
       continue;
     }
@@ -155,77 +122,80 @@ void priceChoices(const Parameters& parameters, Plan* plan) {
 
 PlanCost wholeCost(const Parameters& parameters, const Plan& plan) {
   Plan whole;
-  whole.tableDesc.solver = plan.tableDesc.solver;
-  whole.needs.projection = plan.needs.projection;
-  for (EffectChoice& choice : whole.effects) choice.on = true;
-  plan::applyEffects(parameters, whole.tableDesc, &whole);
+  whole.tables.solver = whole.request.tables.solver = plan.tables.solver;
+  whole.request.projection = plan.request.projection;
+  for (uint32_t i = 0; i < kEffectCount; ++i) whole.choices[i].on = true;
+  plan::applyEffects(parameters, &whole);
   return costOf(parameters, whole);
 }
 
-void fill(const Parameters& parameters, const Needs& needs, const TableDesc& base, Plan* plan) {
-  plan->needs = needs;
-  plan->tableDesc = base;
-  plan::decideEffects(parameters, base, plan);
-  plan::applyEffects(parameters, base, plan);
-  plan::decideQuality(parameters, base, plan);
-  const Quality unbound = plan->tableDesc.quality;
-  fitBudget(parameters, base, plan);
-  plan::fitDepths(base, plan);
-  plan->cost = costOf(parameters, *plan);
-  plan->budgetMet = withinBudget(*plan);
+void fill(const Parameters& parameters, const PlanRequest& request, Plan* plan) {
+  plan->request = request;
+  plan->tables = request.tables;
+  plan::decideEffects(parameters, plan);
+  plan::applyEffects(parameters, plan);
+  plan::decideQuality(parameters, plan);
+  const Quality unbound = plan->tables.quality;
+  fitBudget(parameters, plan);
+  plan::fitDepths(plan);
+  plan::setCost(costOf(parameters, *plan), plan);
   for (uint32_t i = 0; i < kEffectCount; ++i) {
-    EffectChoice& choice = plan->effects[i];
-    if (!choice.on) choice.saves = savedBy(parameters, base, *plan, static_cast<Effect>(i));
+    PlanChoice& choice = plan->choices[i];
+    if (!choice.on) choice.saves = savedBy(parameters, *plan, static_cast<Effect>(i));
   }
+  const TableDesc& base = request.tables;
   const uint32_t solved = base.solver == Solver::Moments ? bake::solvedOrders(parameters, base) : 5;
-  plan::describeChoices(parameters, base, solved, unbound, plan);
+  plan::describeChoices(parameters, solved, unbound, plan);
   priceChoices(parameters, plan);
-  listTables(parameters, plan);
+  listImages(parameters, plan);
   plan->whole = wholeCost(parameters, *plan);
+}
+
+/// As createTables checks them, on a device with the largest images that any has.
+Status checkTables(const Parameters& parameters, const PlanRequest& request,
+                   const DiagnosticSink& sink) {
+  TableDesc desc = request.tables;
+  return resolveTableDesc(parameters, &desc, sink);
 }
 
 }  // namespace
 
 inline namespace v1 {
 
-Status makePlan(const Parameters& parameters, const Needs& needs, const TableDesc& base, Plan* out,
-                char* message, size_t messageSize) try {
-  if (out == nullptr) return Status::InvalidArgument;
-  Status status = validate(parameters, message, messageSize);
+Status makePlan(const Parameters& parameters, const PlanRequest& request, Plan* out,
+                const DiagnosticSink& sink) try {
+  if (out == nullptr) return model::reportNull(sink, "makePlan", "the plan");
+  Status status = validate(parameters, sink);
   if (status != Status::Ok) return status;
   model::Sentence why;
-  status = plan::checkNeeds(needs, &why);
-  if (status == Status::Ok) status = plan::checkBase(needs, base, &why);
-  why.copyTo(message, messageSize);
+  status = plan::checkRequest(request, &why);
+  if (status != Status::Ok) return model::report(sink, status, why);
+  status = checkTables(parameters, request, sink);
   if (status != Status::Ok) return status;
+  status = plan::checkTables(request, &why);
+  if (status != Status::Ok) return model::report(sink, status, why);
   Plan made;
-  fill(parameters, needs, base, &made);
+  fill(parameters, request, &made);
   *out = made;
   return Status::Ok;
 } catch (const std::bad_alloc&) {  // No exception may reach the host.
-  return Status::OutOfHostMemory;
+  return model::report(sink, Status::OutOfHostMemory, "There is no host memory for a plan.");
 }
 
-void describeView(const Plan& plan, ViewDesc* view) {
-  view->solver = plan.tableDesc.solver;
-  view->mie = plan.tableDesc.mie;
-  view->without = plan.viewWithout;
-  view->alwaysSliced = plan.skySlice;
-}
-
-SeenFlags seenBy(const Parameters& parameters, Projection projection, const SkyDraw& draw) {
+VisibilityFlags visibleFrom(const Parameters& parameters, Projection projection,
+                            const SkyDraw& draw) {
   ViewDesc view;
   view.projection = projection;
-  SeenFlags seen = 0;
+  VisibilityFlags visible = 0;
   const sky::Parts parts = sky::cut(parameters, view, draw);
   for (uint32_t i = 0; i < parts.count; ++i) {
     const sky::Visible& v = parts.parts[i].visible;
-    if (v.air) seen |= kSeenSky;
-    if (v.ground) seen |= kSeenGround;
-    if (!v.air) seen |= kSeenSpace;
-    if (v.disc) seen |= kSeenSun;
+    if (v.air) visible |= kVisibleSky;
+    if (v.ground) visible |= kVisibleGround;
+    if (!v.air) visible |= kVisibleSpace;
+    if (v.disc) visible |= kVisibleSun;
   }
-  return seen;
+  return visible;
 }
 
 }  // namespace v1

@@ -113,14 +113,13 @@ ProbeAnswer deviceAnswer(const physics_f64::Medium& medium, const ProbeQuery& qu
 
 }  // namespace
 
-Status recordProbe(const Tables* tables, VkCommandBuffer commands, const FrameInfo& frame,
-                   const ProbeQuery* queries, uint32_t count, VkBuffer buffer) {
+Status recordProbe(const Tables* tables, VkCommandBuffer commands, const ProbeQuery* queries,
+                   uint32_t count, VkBuffer buffer) {
   if (tables == nullptr || commands == VK_NULL_HANDLE) return nullArgument(tables, "recordProbe");
   const Context& context = *tables->resources().context;
-  Status status = requireCapability(context, kCapabilityBake, "recordProbe");
-  if (status == Status::Ok) status = checkFrame(*tables, frame, "recordProbe");
+  const Status status = requireCapability(context, kCapabilityBake, "recordProbe");
   if (status != Status::Ok) return status;
-  return context.probe->record(*tables, commands, frame, queries, count, buffer);
+  return context.probe->record(*tables, commands, queries, count, buffer);
 }
 
 Status answerQueries(const Tables* tables, const ProbeQuery* queries, uint32_t count,

@@ -20,13 +20,14 @@ Status createShafts(Context* context, const ShaftsDesc& desc, Shafts** out) {
   return Shafts::create(*context->bake, full, out);
 }
 
-void destroyShafts(Shafts* shafts, const FrameInfo& frame) { Shafts::destroy(shafts, frame); }
+void destroyShafts(Shafts* shafts) {
+  if (shafts != nullptr) Shafts::destroy(shafts, shafts->resources().device().submitting());
+}
 
-Status recordSunMap(Shafts* shafts, VkCommandBuffer commands, const FrameInfo& frame,
+Status recordSunMap(Shafts* shafts, VkCommandBuffer commands,
                     const double sunDirection[3], const Casters& casters) {
   if (shafts == nullptr || commands == VK_NULL_HANDLE || sunDirection == nullptr)
     return Status::InvalidArgument;
-  shafts->collect(frame);
   const engine::Device& device = shafts->resources().device();
   Status status = shafts::checkCasters(device, casters);
   if (status == Status::Ok) status = sky::checkDirection(device, "sunDirection", sunDirection);
@@ -34,11 +35,10 @@ Status recordSunMap(Shafts* shafts, VkCommandBuffer commands, const FrameInfo& f
   return shafts->recordSunMap(commands, sunDirection, casters);
 }
 
-Status recordShafts(Shafts* shafts, View* view, VkCommandBuffer commands, const FrameInfo& frame,
+Status recordShafts(Shafts* shafts, View* view, VkCommandBuffer commands,
                     const Tables* tables, const SkyDraw& draw, const Casters& casters) {
   if (shafts == nullptr || view == nullptr || tables == nullptr || commands == VK_NULL_HANDLE)
     return Status::InvalidArgument;
-  shafts->collect(frame);
   const engine::Device& device = shafts->resources().device();
   Status status = view->checkRecord(*tables, draw, "recordShafts");
   if (status == Status::Ok && view->desc().shafts != shafts) {

@@ -7,16 +7,6 @@
 
 namespace alpenglow {
 inline namespace v1 {
-// What a call defers to its frame would be freed while it is recorded, if that had completed.
-Status checkFrame(const Tables& tables, const FrameInfo& frame, const char* call) {
-  if (frame.submitting > frame.completed) return Status::Ok;
-  return tables.resources().device().fail(Status::InvalidArgument, VK_SUCCESS,
-                                          "%s got the frame {submitting %llu, completed %llu}, but "
-                                          "the frame being recorded must be above "
-                                          "the last completed one; count from 1.",
-                                          call, static_cast<unsigned long long>(frame.submitting),
-                                          static_cast<unsigned long long>(frame.completed));
-}
 
 Status nullArgument(const Context* context, const char* call) {
   if (context == nullptr) return Status::InvalidArgument;
@@ -28,20 +18,12 @@ Status nullArgument(const Tables* tables, const char* call) {
   return nullArgument(tables != nullptr ? tables->resources().context : nullptr, call);
 }
 
-DiagnosticSink sinkOf(const Context& context) {
-  return {[](void* user, const Diagnostic& diagnostic) {
-            static_cast<const engine::Device*>(user)->fail(diagnostic.status, diagnostic.result,
-                                                           "%s", diagnostic.message);
-          },
-          context.device};
-}
-
 Status createTables(Context* context, const Parameters& parameters, const TableDesc& desc,
                     Tables** out) {
   if (context == nullptr || out == nullptr) return nullArgument(context, "createTables");
   *out = nullptr;
   TableDesc full = desc;
-  Status status = resolveTableDesc(parameters, &full, sinkOf(*context));
+  Status status = resolveTableDesc(parameters, &full, context->device->sink());
   if (status == Status::Ok) status = bake::checkDeviceLimits(*context->device, full);
   if (status != Status::Ok) return status;
   const bool bakes = (context->capabilities & kCapabilityBake) != 0;
@@ -54,14 +36,14 @@ Status createTables(Context* context, const Parameters& parameters, const TableD
   return Tables::create(*context->bake, bake::simulated(parameters, desc.disabledEffects), full, solverPlan, bakes, out);
 }
 
-void destroyTables(Tables* tables, const FrameInfo& frame) { Tables::destroy(tables, frame); }
+void destroyTables(Tables* tables) {
+  if (tables != nullptr) Tables::destroy(tables, tables->resources().device().submitting());
+}
 
-Status recordBake(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame, uint64_t budget,
+Status recordBake(Tables* tables, VkCommandBuffer commands, uint64_t budget,
                   BakeProgress* progress) {
   if (tables == nullptr || commands == VK_NULL_HANDLE) return nullArgument(tables, "recordBake");
-  const Status status = checkFrame(*tables, frame, "recordBake");
-  if (status != Status::Ok) return status;
-  return tables->recordBake(commands, frame, budget, progress);
+  return tables->recordBake(commands, budget, progress);
 }
 
 Status tablesInfo(const Tables* tables, TablesInfo* out) {
@@ -77,13 +59,11 @@ Status recordTableReadback(Tables* tables, VkCommandBuffer commands, TableId id,
   return tables->recordReadback(commands, id, buffer, offset);
 }
 
-Status recordTableUpload(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame,
-                         TableId id, VkBuffer buffer, VkDeviceSize offset) {
+Status recordTableUpload(Tables* tables, VkCommandBuffer commands, TableId id, VkBuffer buffer,
+                         VkDeviceSize offset) {
   if (tables == nullptr || commands == VK_NULL_HANDLE)
     return nullArgument(tables, "recordTableUpload");
-  const Status status = checkFrame(*tables, frame, "recordTableUpload");
-  if (status != Status::Ok) return status;
-  return tables->recordUpload(commands, frame, id, buffer, offset);
+  return tables->recordUpload(commands, id, buffer, offset);
 }
 
 }  // namespace v1

@@ -68,31 +68,30 @@ Status createView(Context* context, const ViewDesc& desc, View** out) {
   return View::create(*context->bake, desc, shaftSetOf(desc.shafts), out);
 }
 
-void destroyView(View* view, const FrameInfo& frame) { View::destroy(view, frame); }
+void destroyView(View* view) {
+  if (view != nullptr) View::destroy(view, view->resources().device().submitting());
+}
 
-Status recordSkySlice(View* view, VkCommandBuffer commands, const FrameInfo& frame,
+Status recordSkySlice(View* view, VkCommandBuffer commands,
                       const Tables* tables, const SkyDraw& draw) {
   if (view == nullptr || tables == nullptr || commands == VK_NULL_HANDLE)
     return Status::InvalidArgument;
-  view->collect(frame);
   return view->recordSlice(commands, *tables, draw);
 }
 
-Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame, const Tables* tables,
+Status recordSky(View* view, VkCommandBuffer commands, const Tables* tables,
                  const SkyDraw& draw) {
   if (view == nullptr || tables == nullptr || commands == VK_NULL_HANDLE)
     return Status::InvalidArgument;
-  view->collect(frame);
   Status status = view->checkRecord(*tables, draw, "recordSky");
   if (status == Status::Ok) status = checkRecorded(*view, *tables, draw);
   return status == Status::Ok ? view->recordSky(commands, *tables, draw) : status;
 }
 
-Status recordAir(View* view, VkCommandBuffer commands, const FrameInfo& frame, const Tables* tables,
+Status recordAir(View* view, VkCommandBuffer commands, const Tables* tables,
                  const SkyDraw& draw) {
   if (view == nullptr || tables == nullptr || commands == VK_NULL_HANDLE)
     return Status::InvalidArgument;
-  view->collect(frame);
   Status status = view->checkRecord(*tables, draw, "recordAir");
   if (status == Status::Ok) status = checkRecorded(*view, *tables, draw);
   return status == Status::Ok ? view->recordAir(commands, *tables, draw) : status;

@@ -1,5 +1,5 @@
 // The effects that a shader is compiled for, as its specialization constants:
-// shaders/glsl/effects.glsl.
+// shaders/glsl/common/effect_constants.glsl.
 #pragma once
 
 #include <alpenglow/effects.h>

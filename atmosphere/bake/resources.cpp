@@ -50,9 +50,9 @@ const VkDescriptorSetLayoutBinding* Resources::outputLayoutBindings() {
   return kOutputLayoutBindings;
 }
 
-Status Resources::create(engine::Device& device, Resources** out) {
+Status Resources::create(engine::Device& device, LiveObjects& live, Resources** out) {
   *out = nullptr;
-  auto* resources = new (std::nothrow) Resources(device);
+  auto* resources = new (std::nothrow) Resources(device, live);
   if (resources == nullptr) {
     return device.fail(Status::OutOfHostMemory, VK_SUCCESS,
                        "The bake's shared objects found no host memory.");

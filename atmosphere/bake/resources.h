@@ -2,12 +2,12 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <compare>
 #include <map>
 #include <mutex>
 #include <utility>
 
+#include "atmosphere/bake/live_objects.h"
 #include "atmosphere/bake/plan.h"
 #include "engine/descriptors.h"
 #include "engine/pipeline.h"
@@ -29,7 +29,7 @@ TableFormat finestFormat(const engine::Device& device, TableFormat otherwise);
 /// Made with the context, destroyed with it. Thread-safe.
 class Resources {
  public:
-  static Status create(engine::Device& device, Resources** out);
+  static Status create(engine::Device& device, LiveObjects& live, Resources** out);
   static void destroy(Resources* resources);
 
   engine::Device& device() const { return device_; }
@@ -48,13 +48,12 @@ class Resources {
   /// The pipeline of a stage; made at the first call for its shader and constants, and kept.
   Status pipeline(const Stage& stage, VkPipeline* out);
 
-  /// Objects of the host that are alive on this context.
-  std::atomic<uint32_t> liveTables{0}, liveViews{0};
-  std::atomic<uint64_t> tablesMade{0};  ///< Numbers them: an address may come again, an id never.
-  Context* context = nullptr;           ///< Whose these are.
+  /// Of the context; counted up and down by what is made on it.
+  LiveObjects& live() const { return live_; }
+  Context* context = nullptr;  ///< Whose these are.
 
  private:
-  explicit Resources(engine::Device& device) : device_(device) {}
+  Resources(engine::Device& device, LiveObjects& live) : device_(device), live_(live) {}
   Status makeLayouts();
 
   struct Key {
@@ -66,6 +65,7 @@ class Resources {
   };
 
   engine::Device& device_;
+  LiveObjects& live_;
   VkDescriptorSetLayout tableLayout_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout inputLayout_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout outputLayout_ = VK_NULL_HANDLE;

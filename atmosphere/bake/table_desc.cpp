@@ -17,7 +17,7 @@ namespace {
 using model::Sentence;
 
 Status refuse(const DiagnosticSink& sink, Status status, const Sentence& sentence) {
-  return model::report(sink.report, sink.user, status, sentence);
+  return model::report(sink, status, sentence);
 }
 Status invalid(const DiagnosticSink& sink, const Sentence& sentence) {
   return refuse(sink, Status::InvalidArgument, sentence);
@@ -206,6 +206,35 @@ Status checkLights(const DiagnosticSink& sink, const TableDesc& desc) {
   return Status::Ok;
 }
 
+// The largest images that any device has.
+constexpr uint32_t kMost2D = 32768, kMost3D = 16384;
+
+Status checkImageSizes(const DiagnosticSink& sink, const TableDesc& desc, uint32_t most2D,
+                       uint32_t most3D) {
+  if (desc.solver != Solver::Standard) return Status::Ok;
+  const TableSizes& s = desc.sizes;
+  for (const SizeField& field : kStandardFields) {
+    const bool in3D = std::string_view(field.name).starts_with("scattering");
+    const uint32_t most = in3D ? most3D : most2D;
+    if (s.*field.member <= most) continue;
+    return invalid(sink, Sentence() << "TableSizes::" << field.name << " is " << s.*field.member
+                                    << ", but " << (in3D ? "3D" : "2D") << " images end at " << most
+                                    << ".");
+  }
+  const uint64_t across = uint64_t(s.scatteringMuS) * s.scatteringNu;
+  if (across > most3D) {
+    return invalid(sink, Sentence() << "TableSizes::scatteringMuS " << s.scatteringMuS
+                                    << " times scatteringNu " << s.scatteringNu << " are " << across
+                                    << " texels side by side, but 3D images end at " << most3D
+                                    << ".");
+  }
+  const uint64_t side = uint64_t(s.scatteringMuS) * s.scatteringR;
+  if (side <= most2D) return Status::Ok;
+  return invalid(sink, Sentence() << "TableSizes::scatteringMuS " << s.scatteringMuS
+                                  << " times scatteringR " << s.scatteringR << " are " << side
+                                  << " rows of a bake, but 2D images end at " << most2D << ".");
+}
+
 constexpr VkPipelineStageFlags2 kDefaultReaders =
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
 /// Stages that have shaders without an extension, and what stands for all of them.
@@ -289,35 +318,8 @@ TableDesc completed(const Parameters& parameters, const TableDesc& desc) {
 }
 
 Status checkDeviceLimits(const engine::Device& device, const TableDesc& desc) {
-  if (desc.solver != Solver::Standard) return Status::Ok;
-  const TableSizes& s = desc.sizes;
-  const uint32_t most2D = device.limits().maxImageDimension2D;
-  const uint32_t most3D = device.limits().maxImageDimension3D;
-  for (const SizeField& field : kStandardFields) {
-    const bool in3D = std::string_view(field.name).starts_with("scattering");
-    const uint32_t most = in3D ? most3D : most2D;
-    if (s.*field.member <= most) continue;
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "TableSizes::%s is %u, but this device's %dD images end at %u.", field.name,
-                       s.*field.member, in3D ? 3 : 2, most);
-  }
-  if (uint64_t(s.scatteringMuS) * s.scatteringNu > most3D) {
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "The table sizes scatteringMuS %u times scatteringNu %u are %llu texels "
-                       "side by side, but this device's 3D images end at %u.",
-                       s.scatteringMuS, s.scatteringNu,
-                       static_cast<unsigned long long>(uint64_t(s.scatteringMuS) * s.scatteringNu),
-                       most3D);
-  }
-  const uint64_t side = uint64_t(s.scatteringMuS) * s.scatteringR;
-  if (side > most2D) {
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "The table sizes scatteringMuS %u times scatteringR %u are %llu rows of a "
-                       "bake, but this device's 2D images end at %u.",
-                       s.scatteringMuS, s.scatteringR, static_cast<unsigned long long>(side),
-                       most2D);
-  }
-  return Status::Ok;
+  return checkImageSizes(device.sink(), desc, device.limits().maxImageDimension2D,
+                         device.limits().maxImageDimension3D);
 }
 
 }  // namespace alpenglow::bake
@@ -328,11 +330,9 @@ inline namespace v1 {
 Status resolveTableDesc(const Parameters& parameters, TableDesc* desc, const DiagnosticSink& sink) {
   using model::Sentence;
   if (desc == nullptr)
-    return bake::invalid(sink, Sentence() << "resolveTableDesc got a null description.");
-  char message[512];
-  if (validate(parameters, message, sizeof message) != Status::Ok)
-    return bake::invalid(sink, Sentence() << message);
-  const Status status = bake::checkGiven(sink, *desc);
+    return model::reportNull(sink, "resolveTableDesc", "the description");
+  Status status = validate(parameters, sink);
+  if (status == Status::Ok) status = bake::checkGiven(sink, *desc);
   if (status != Status::Ok) return status;
   const TableDesc full =
       bake::completed(bake::simulated(parameters, desc->disabledEffects), *desc);
@@ -341,8 +341,9 @@ Status resolveTableDesc(const Parameters& parameters, TableDesc* desc, const Dia
                                           << ", but must be above half the degree, which is "
                                           << full.sizes.degree << ".");
   }
-  *desc = full;
-  return Status::Ok;
+  status = bake::checkImageSizes(sink, full, bake::kMost2D, bake::kMost3D);
+  if (status == Status::Ok) *desc = full;
+  return status;
 }
 
 }  // namespace v1

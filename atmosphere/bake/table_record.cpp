@@ -1,5 +1,6 @@
 // What Tables record: slices of the bake, readback and upload.
 #include <algorithm>
+#include <new>
 
 #include "atmosphere/bake/table_set.h"
 
@@ -37,48 +38,50 @@ const char* nameOf(TableId id) {
 
 }  // namespace
 
-Status Tables::recordBake(VkCommandBuffer commands, const FrameInfo& frame, uint64_t budget,
+Status Tables::recordBake(VkCommandBuffer commands, uint64_t budget,
                           BakeProgress* progress) {
   if (!bakes_) {
     return device_.fail(Status::Unsupported, VK_SUCCESS,
                         "recordBake needs a context with kCapabilityBake, but this one was made "
                         "without it: its tables can only be uploaded.");
   }
-  if (uploaded_ != 0) {
+  if (state_.uploaded != 0) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "recordBake was called on tables that were filled by recordTableUpload, "
                         "but a bake needs tables of its own.");
   }
+  const Status noted = noteFrame();
+  if (noted != Status::Ok) return noted;
   const uint32_t passCount = static_cast<uint32_t>(plan_.passes.size());
   BakeProgress now;
   now.passCount = passCount;
   now.unitsTotal = unitsTotal_;
-  if (currentPass_ < passCount) {
-    const bake::Pass& pass = plan_.passes[currentPass_];
+  if (state_.pass < passCount) {
+    const bake::Pass& pass = plan_.passes[state_.pass];
     const bake::Stage& stage = plan_.stages[pass.stage];
-    const uint64_t tilesLeft = (stage.rows - currentRow_ + bake::kTileRows - 1) / bake::kTileRows;
+    const uint64_t tilesLeft = (stage.rows - state_.row + bake::kTileRows - 1) / bake::kTileRows;
     const uint64_t tilesWanted =
         budget / std::max<uint64_t>(stage.unitsPerRow() * bake::kTileRows, 1);
     const uint64_t tiles = std::clamp<uint64_t>(budget == 0 ? tilesLeft : tilesWanted, 1, 65535);
     const uint32_t endRow = static_cast<uint32_t>(
-        std::min<uint64_t>(stage.rows, currentRow_ + tiles * bake::kTileRows));
-    const Status status = recordPass(commands, pass, currentRow_, endRow);
+        std::min<uint64_t>(stage.rows, state_.row + tiles * bake::kTileRows));
+    const Status status = recordPass(commands, pass, state_.row, endRow);
     if (status != Status::Ok) return status;
-    now.unitsRecorded = (endRow - currentRow_) * stage.unitsPerRow();
-    now.passIndex = currentPass_;
+    now.unitsRecorded = (endRow - state_.row) * stage.unitsPerRow();
+    now.passIndex = state_.pass;
     now.pass = pass.name;
     now.order = pass.order;
     now.passFinished = endRow == stage.rows;
-    unitsDone_ += now.unitsRecorded;
-    currentRow_ = now.passFinished ? 0 : endRow;
-    currentPass_ += now.passFinished ? 1 : 0;
-    if (currentPass_ == passCount) {
-      const Status finished = finish(commands, frame);
+    state_.unitsDone += now.unitsRecorded;
+    state_.row = now.passFinished ? 0 : endRow;
+    state_.pass += now.passFinished ? 1 : 0;
+    if (state_.pass == passCount) {
+      const Status finished = finish(commands);
       if (finished != Status::Ok) return finished;
     }
   }
-  now.unitsDone = unitsDone_;
-  now.done = ready_;
+  now.unitsDone = state_.unitsDone;
+  now.done = state_.ready;
   if (progress != nullptr) *progress = now;
   return Status::Ok;
 }
@@ -151,7 +154,7 @@ Status Tables::recordHostCopies(VkCommandBuffer commands) {
 }
 
 // The last thing that makes tables ready, of a bake or an upload.
-Status Tables::finish(VkCommandBuffer commands, const FrameInfo& frame) {
+Status Tables::finish(VkCommandBuffer commands) {
   Status status = recordHostCopies(commands);
   if (status != Status::Ok) return status;
   engine::Barriers barriers;
@@ -159,25 +162,58 @@ Status Tables::finish(VkCommandBuffer commands, const FrameInfo& frame) {
     if (plan_.images[i].persistent) barriers.image(images_[i], readable());
   status = barriers.record(device_, commands);
   if (status != Status::Ok) return status;
-  ready_ = true;
-  readyFrame_ = frame.submitting;
-  if (!desc_.keepOrders || uploaded_ != 0) releaseScratch(frame);
+  state_.ready = true;
+  state_.readyFrame = device_.submitting();
   return Status::Ok;
 }
 
 TablesState Tables::state() const {
-  if (!ready_)
-    return unitsDone_ != 0 || uploaded_ != 0 ? TablesState::Baking : TablesState::Empty;
-  return readyFrame_ <= device_.deletions().completed() ? TablesState::Complete
-                                                        : TablesState::Recorded;
+  const bool begun = state_.unitsDone != 0 || state_.uploaded != 0;
+  if (!state_.ready) return begun ? TablesState::Baking : TablesState::Empty;
+  return state_.readyFrame <= device_.completed() ? TablesState::Complete : TablesState::Recorded;
 }
 
-void Tables::releaseScratch(const FrameInfo& frame) {
+// Only once the last frame has completed: an abandoned one would need it again.
+void Tables::frameCompleted(uint64_t completed) {
+  const bool needed = desc_.keepOrders && state_.uploaded == 0;
+  if (state_.ready && !needed && recordedFrame_ <= completed) releaseScratch();
+}
+
+Status Tables::noteFrame() {
+  if (recordedFrame_ == device_.submitting()) return Status::Ok;
+  try {
+    imagesBefore_.resize(images_.size());
+  } catch (const std::bad_alloc&) {
+    return device_.fail(Status::OutOfHostMemory, VK_SUCCESS,
+                        "Recording commands for tables found no host memory.");
+  }
+  for (size_t i = 0; i < images_.size(); ++i) imagesBefore_[i] = images_[i];
+  stateBefore_ = state_;
+  recordedFrame_ = device_.submitting();
+  return Status::Ok;
+}
+
+void Tables::frameAbandoned(uint64_t frame) {
+  if (recordedFrame_ < frame) return;
+  if (recordedFrame_ == frame) {
+    state_ = stateBefore_;
+    for (size_t i = 0; i < images_.size(); ++i) static_cast<engine::ImageTrack&>(images_[i]) = imagesBefore_[i];
+    --recordedFrame_;
+    return;
+  }
+  // Later slices stand on what is missing now.
+  const bool finished = scratchReleased_;  // Then frame is a readback's, and the tables are whole.
+  if (finished) return;
+  state_ = {};
+  for (engine::Image& image : images_) static_cast<engine::ImageTrack&>(image) = {};
+}
+
+void Tables::releaseScratch() {
   if (scratchReleased_) return;
   scratchReleased_ = true;
   for (size_t i = 0; i < images_.size(); ++i)
-    if (!plan_.images[i].persistent) engine::deferImage(device_, frame.submitting, &images_[i]);
-  engine::deferBlock(device_, frame.submitting, &scratchBlock_);
+    if (!plan_.images[i].persistent) engine::deferImage(device_, 0, &images_[i]);
+  engine::deferBlock(device_, 0, &scratchBlock_);
 }
 
 uint32_t Tables::imageOf(TableId id) const {
@@ -236,9 +272,9 @@ Tables::HostCopy Tables::hostCopy(TableId id) const {
 
 // Order tables can be read between the pass that finished them and the next one.
 uint32_t Tables::readableImage(TableId id) const {
-  if (!isOrderTable(id)) return ready_ ? plan_.imageOf(id) : kNoImage;
-  if (currentRow_ != 0 || currentPass_ == 0) return kNoImage;
-  return plan_.imageAfter(plan_.passes[currentPass_ - 1], id);
+  if (!isOrderTable(id)) return state_.ready ? plan_.imageOf(id) : kNoImage;
+  if (state_.row != 0 || state_.pass == 0) return kNoImage;
+  return plan_.imageAfter(plan_.passes[state_.pass - 1], id);
 }
 
 Status Tables::recordReadback(VkCommandBuffer commands, TableId id, VkBuffer buffer,
@@ -253,10 +289,12 @@ Status Tables::recordReadback(VkCommandBuffer commands, TableId id, VkBuffer buf
   }
   const uint32_t index = readableImage(id);
   if (index == kNoImage) return Status::NotReady;
+  Status status = noteFrame();
+  if (status != Status::Ok) return status;
   engine::Image& image = images_[index];
   engine::Barriers barriers;
   barriers.image(image, engine::kTransferSource);
-  const Status status = barriers.record(device_, commands);
+  status = barriers.record(device_, commands);
   if (status != Status::Ok) return status;
   copyToBuffer(commands, image, buffer, offset);
   barriers.image(image, readable());
@@ -265,22 +303,24 @@ Status Tables::recordReadback(VkCommandBuffer commands, TableId id, VkBuffer buf
   return barriers.record(device_, commands);
 }
 
-Status Tables::recordUpload(VkCommandBuffer commands, const FrameInfo& frame, TableId id,
+Status Tables::recordUpload(VkCommandBuffer commands, TableId id,
                             VkBuffer buffer, VkDeviceSize offset) {
   if (imageOf(id) == kNoImage) return missing(id);
-  if (isOrderTable(id) || buffer == VK_NULL_HANDLE || offset % 16 != 0 || unitsDone_ != 0) {
+  if (isOrderTable(id) || buffer == VK_NULL_HANDLE || offset % 16 != 0 || state_.unitsDone != 0) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "The upload of table %s (buffer %s, offset %llu, %s) needs a final table, "
                         "a buffer, an offset that is a multiple of 16, and tables without a bake.",
                         nameOf(id), buffer == VK_NULL_HANDLE ? "null" : "given",
                         static_cast<unsigned long long>(offset),
-                        unitsDone_ != 0 ? "bake begun" : "no bake begun");
+                        state_.unitsDone != 0 ? "bake begun" : "no bake begun");
   }
+  Status status = noteFrame();
+  if (status != Status::Ok) return status;
   const uint32_t index = imageOf(id);
   engine::Image& image = images_[index];
   engine::Barriers barriers;
   barriers.discard(image, engine::kTransferDestination);
-  Status status = barriers.record(device_, commands);
+  status = barriers.record(device_, commands);
   if (status != Status::Ok) return status;
   const VkBufferImageCopy copy = wholeCopy(image, offset);
   device_.vk().CmdCopyBufferToImage(commands, buffer, image.handle,
@@ -288,16 +328,16 @@ Status Tables::recordUpload(VkCommandBuffer commands, const FrameInfo& frame, Ta
   barriers.image(image, readable());
   status = barriers.record(device_, commands);
   if (status != Status::Ok) return status;
-  uploaded_ |= 1u << index;
+  state_.uploaded |= 1u << index;
   uint32_t needed = 0;
   for (uint32_t i = 0; i < images_.size(); ++i)
     if (plan_.images[i].persistent) needed |= 1u << i;
   // A table that is uploaded once more is copied to the host once more.
-  return uploaded_ == needed ? finish(commands, frame) : Status::Ok;
+  return state_.uploaded == needed ? finish(commands) : Status::Ok;
 }
 
 Status Tables::assertReadable() const {
-  if (!ready_) return Status::NotReady;
+  if (!state_.ready) return Status::NotReady;
   for (size_t i = 0; i < images_.size(); ++i) {
     if (!plan_.images[i].persistent) continue;
     const Status status =

@@ -8,9 +8,10 @@ inline namespace v1 {
 
 Tables::Tables(bake::Resources& resources, const Parameters& parameters, const TableDesc& desc,
                bool bakes)
-    : resources_(resources),
+    : FrameObject(resources.device().frames()),
+      resources_(resources),
       device_(resources.device()),
-      id_(++resources.tablesMade),
+      id_(++resources.live().tablesMade),
       parameters_(parameters),
       desc_(desc),
       bakes_(bakes) {}
@@ -23,7 +24,7 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
   if (tables == nullptr) {
     return device.fail(Status::OutOfHostMemory, VK_SUCCESS, "Tables found no host memory.");
   }
-  ++resources.liveTables;
+  ++resources.live().tables;
   Status status = Status::Ok;
   try {
     tables->plan_ = plan(parameters, desc, bake::finestFormat(device, desc.format));
@@ -40,28 +41,27 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
     status = device.fail(Status::OutOfHostMemory, VK_SUCCESS, "Tables found no host memory.");
   }
   if (status != Status::Ok) {
-    destroy(tables, FrameInfo{});  // Nothing was recorded with them: frame 0 has always completed.
+    destroy(tables, 0);  // Nothing was recorded with them: frame 0 has always completed.
     return status;
   }
   *out = tables;
   return Status::Ok;
 }
 
-void Tables::destroy(Tables* tables, const FrameInfo& frame) {
+void Tables::destroy(Tables* tables, uint64_t frame) {
   if (tables == nullptr) return;
-  --tables->resources_.liveTables;
+  --tables->resources_.live().tables;
   engine::Device& device = tables->device_;
-  device.deletions().defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
+  device.deletions().defer(frame, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
                            engine::handleNumber(tables->pool_));
-  for (engine::Image& image : tables->images_) engine::deferImage(device, frame.submitting, &image);
-  engine::deferBuffer(device, frame.submitting, &tables->uniforms_);
-  for (engine::Buffer& copy : tables->hostCopies_)
-    engine::deferBuffer(device, frame.submitting, &copy);
+  for (engine::Image& image : tables->images_) engine::deferImage(device, frame, &image);
+  engine::deferBuffer(device, frame, &tables->uniforms_);
+  for (engine::Buffer& copy : tables->hostCopies_) engine::deferBuffer(device, frame, &copy);
   for (engine::MemoryBlock* block : {&tables->persistentBlock_, &tables->scratchBlock_,
                                      &tables->uniformBlock_, &tables->hostBlock_})
-    engine::deferBlock(device, frame.submitting, block);
+    engine::deferBlock(device, frame, block);
   delete tables;
-  device.deletions().collect(frame.completed);
+  device.deletions().collect(device.completed());
 }
 
 Status Tables::makeImages() {

@@ -10,6 +10,7 @@
 #include "atmosphere/model/physics_cpp.h"
 #include "engine/barriers.h"
 #include "engine/descriptors.h"
+#include "engine/frames.h"
 #include "engine/memory.h"
 
 namespace alpenglow::bake {
@@ -28,7 +29,7 @@ namespace alpenglow {
 inline namespace v1 {
 
 /// Externally synchronised, as every handle of its kind.
-struct Tables {
+struct Tables : public engine::FrameObject {
  public:
   /// Both arguments are checked and completed. Allocates; records nothing. Without `bakes` the
   /// tables can only be uploaded, and nothing is made that a bake alone needs. `plan` makes the
@@ -36,18 +37,22 @@ struct Tables {
   using MakePlan = bake::SolverPlan (*)(const Parameters&, const TableDesc&, TableFormat);
   static Status create(bake::Resources& resources, const Parameters& parameters,
                        const TableDesc& desc, MakePlan plan, bool bakes, Tables** out);
-  static void destroy(Tables* tables, const FrameInfo& frame);
+  static void destroy(Tables* tables, uint64_t frame);
 
-  Status recordBake(VkCommandBuffer commands, const FrameInfo& frame, uint64_t budget,
-                    BakeProgress* progress);
+  Status recordBake(VkCommandBuffer commands, uint64_t budget, BakeProgress* progress);
   void info(TablesInfo* out) const;
   Status recordReadback(VkCommandBuffer commands, TableId id, VkBuffer buffer, VkDeviceSize offset);
-  Status recordUpload(VkCommandBuffer commands, const FrameInfo& frame, TableId id, VkBuffer buffer,
-                      VkDeviceSize offset);
+  Status recordUpload(VkCommandBuffer commands, TableId id, VkBuffer buffer, VkDeviceSize offset);
+
+  void frameCompleted(uint64_t completed) override;
+  void frameAbandoned(uint64_t frame) override;
+  void destroyNow() override { destroy(this, 0); }
 
   /// Baked or uploaded, by commands that are recorded.
-  bool ready() const { return ready_; }
+  bool ready() const { return state_.ready; }
   TablesState state() const;
+  /// Newest frame with commands that write the tables; 0: none.
+  uint64_t recordedFrame() const { return recordedFrame_; }
   const Parameters& parameters() const { return parameters_; }
   const TableDesc& desc() const { return desc_; }
   /// Of light 0, at the top of the atmosphere: what views draw with.
@@ -70,6 +75,7 @@ struct Tables {
  private:
   Tables(bake::Resources& resources, const Parameters& parameters, const TableDesc& desc,
          bool bakes);
+  ~Tables() override = default;
   Status makeImages();
   Status makeUniforms();
   Status makeHostCopies();
@@ -88,9 +94,11 @@ struct Tables {
                     VkDeviceSize offset);
   Status recordPass(VkCommandBuffer commands, const bake::Pass& pass, uint32_t firstRow,
                     uint32_t endRow);
-  Status finish(VkCommandBuffer commands, const FrameInfo& frame);
+  Status finish(VkCommandBuffer commands);
   Status recordHostCopies(VkCommandBuffer commands);
-  void releaseScratch(const FrameInfo& frame);
+  void releaseScratch();
+  /// Before anything is recorded: keeps what frameAbandoned() goes back to.
+  Status noteFrame();
 
   bake::Resources& resources_;
   engine::Device& device_;
@@ -115,13 +123,20 @@ struct Tables {
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkDescriptorSet tableSet_ = VK_NULL_HANDLE;
 
-  uint32_t currentPass_ = 0;
-  uint32_t currentRow_ = 0;
-  uint64_t unitsDone_ = 0;
-  uint32_t uploaded_ = 0;  ///< Bits by image.
-  uint64_t readyFrame_ = 0;  ///< In which the last slice or upload was recorded.
+  /// What has been recorded, as far as no frame was abandoned.
+  struct RecordState {
+    uint32_t pass = 0;
+    uint32_t row = 0;
+    uint64_t unitsDone = 0;
+    uint32_t uploaded = 0;  ///< Bits by image.
+    bool ready = false;
+    uint64_t readyFrame = 0;  ///< In which the last slice or upload was recorded.
+  };
+  RecordState state_;
+  uint64_t recordedFrame_ = 0;
+  RecordState stateBefore_;                    ///< Before recordedFrame_ ...
+  std::vector<engine::ImageTrack> imagesBefore_;  ///< ... and the images' states then.
   bool scratchReleased_ = false;
-  bool ready_ = false;
 };
 
 }  // namespace v1

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/gtc/packing.hpp>
 #include <numbers>
 
@@ -27,18 +26,22 @@ Bench::Bench(const std::string& device, VkExtent2D frame, bool validation) {
   options.validation = validation;
   options.requirements = [](PFN_vkGetInstanceProcAddr getProcAddr, VkInstance instance,
                             VkPhysicalDevice physical, Requirements* out, std::string* missing) {
-    return queryRequirements(getProcAddr, instance, physical, kWanted, out, keep, missing);
+    ContextDesc desc;
+    desc.instance = instance;
+    desc.physicalDevice = physical;
+    desc.getInstanceProcAddr = getProcAddr;
+    desc.capabilities = kWanted;
+    desc.diagnostics = {keep, missing};
+    return queryRequirements(desc, out);
   };
   device_ = headless::Device::create(options, &error_);
   if (!device_) throw Failure(error_);
   renew();
-  target_ = device_->createImage(
-      frame, kFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT, 1,
-      &error_);
-  if (target_.image() == VK_NULL_HANDLE) throw Failure(error_);
-  readback_ = device_->createHostBuffer(VkDeviceSize{16} * frame.width * frame.height,
-                                        VK_BUFFER_USAGE_TRANSFER_DST_BIT, &error_);
-  if (readback_.data() == nullptr) throw Failure(error_);
+  headless::TargetDesc target;
+  target.extent = frame;
+  target.color = kFormat;
+  target_ = headless::Target::create(*device_, target, &error_);
+  if (target_ == nullptr) throw Failure(error_);
   describeDriver();
 }
 
@@ -54,8 +57,7 @@ void Bench::renew() {
   context_ = nullptr;
   ContextDesc desc = device_->contextDesc();
   desc.capabilities = kWanted;
-  desc.diagnostic = keep;
-  desc.user = &error_;
+  desc.diagnostics = {keep, &error_};
   if (createContext(desc, &context_) != Status::Ok) throw Failure(error_);
 }
 
@@ -76,6 +78,11 @@ void Bench::describeDriver() {
             std::to_string(VK_API_VERSION_PATCH(version));
 }
 
+void Bench::advance() {
+  const uint64_t next = device_->skipFrame();
+  if (advanceFrame(context_, next, next - 1) != Status::Ok) throw Failure(error_);
+}
+
 double Bench::run(const std::function<Status(VkCommandBuffer)>& record) {
   headless::Timing timing;
   std::string failed;
@@ -83,7 +90,7 @@ double Bench::run(const std::function<Status(VkCommandBuffer)>& record) {
   const bool good = device_->run(
       [&](VkCommandBuffer commands) { return record(commands) == Status::Ok; }, &failed, &timing);
   if (!good) throw Failure(error_.empty() ? failed : error_);
-  collect(context_, device_->frame().completed);
+  advance();
   return software_ || timing.gpuSeconds < 0.0 ? timing.cpuSeconds : timing.gpuSeconds;
 }
 
@@ -96,14 +103,14 @@ TablesPointer Bench::bake(const Parameters& parameters, const TableDesc& desc, d
   BakeProgress progress;
   while (!progress.done) {
     *seconds += run([&](VkCommandBuffer commands) {
-      return recordBake(made, commands, device_->frame(), kSliceBudget, &progress);
+      return recordBake(made, commands, kSliceBudget, &progress);
     });
   }
   return tables;
 }
 
 ResourceReport Bench::resources() {
-  collect(context_, device_->frame().completed);
+  advance();
   ResourceReport report;
   resourceReport(context_, &report);
   return report;
@@ -121,94 +128,34 @@ ViewPointer Bench::view(const Drawn& drawn) {
   return ViewPointer(made, ViewDeleter{device_.get()});
 }
 
-void Bench::barrier(VkCommandBuffer commands, bool toCopy) {
-  VkImageMemoryBarrier2 barrier = {};
-  barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2;
-  barrier.srcStageMask =
-      VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_2_COPY_BIT;
-  barrier.srcAccessMask = toCopy ? VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT : VkAccessFlags2{0};
-  barrier.dstStageMask =
-      toCopy ? VK_PIPELINE_STAGE_2_COPY_BIT : VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
-  barrier.dstAccessMask =
-      toCopy ? VK_ACCESS_2_TRANSFER_READ_BIT
-             : VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT;
-  barrier.oldLayout = toCopy ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_UNDEFINED;
-  barrier.newLayout =
-      toCopy ? VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-  barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
-  barrier.image = target_.image();
-  barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-  VkDependencyInfo dependency = {};
-  dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-  dependency.imageMemoryBarrierCount = 1;
-  dependency.pImageMemoryBarriers = &barrier;
-  function<PFN_vkCmdPipelineBarrier2>("vkCmdPipelineBarrier2")(commands, &dependency);
-}
-
-void Bench::begin(VkCommandBuffer commands, const VkRect2D& area, VkAttachmentLoadOp load) {
-  VkRenderingAttachmentInfo color = {};
-  color.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO;
-  color.imageView = target_.view();
-  color.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-  color.loadOp = load;
-  color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-  VkRenderingInfo info = {};
-  info.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-  info.renderArea = area;
-  info.layerCount = 1;
-  info.colorAttachmentCount = 1;
-  info.pColorAttachments = &color;
-  function<PFN_vkCmdBeginRendering>("vkCmdBeginRendering")(commands, &info);
-}
-
 double Bench::frame(View* view, const Drawn& drawn, const SkyDraw& draw) {
   return run([&](VkCommandBuffer commands) {
-    const FrameInfo frame = device_->frame();
     Status status = Status::Ok;
-    if (drawn.sliced) status = recordSkySlice(view, commands, frame, drawn.tables, draw);
+    if (drawn.sliced) status = recordSkySlice(view, commands, drawn.tables, draw);
     if (status != Status::Ok) return status;
-    barrier(commands, false);
-    begin(commands, draw.viewport, VK_ATTACHMENT_LOAD_OP_DONT_CARE);
-    status = recordSky(view, commands, frame, drawn.tables, draw);
-    function<PFN_vkCmdEndRendering>("vkCmdEndRendering")(commands);
+    target_->prepare(commands);
+    target_->begin(commands, draw.viewport, VK_ATTACHMENT_LOAD_OP_DONT_CARE);
+    status = recordSky(view, commands, drawn.tables, draw);
+    target_->end(commands);
     return status;
   });
 }
 
 io::LinearImage Bench::read(VkExtent2D size) {
   run([&](VkCommandBuffer commands) {
-    // What was drawn stays where it is: the target is in the layout that drawing left.
-    barrier(commands, true);
-    VkBufferImageCopy copy = {};
-    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    copy.imageExtent = {size.width, size.height, 1};
-    function<PFN_vkCmdCopyImageToBuffer>("vkCmdCopyImageToBuffer")(
-        commands, target_.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, readback_.buffer(), 1,
-        &copy);
-    VkMemoryBarrier2 memory = {};
-    memory.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2;
-    memory.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
-    memory.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    memory.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-    memory.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-    VkDependencyInfo dependency = {};
-    dependency.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO;
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &memory;
-    function<PFN_vkCmdPipelineBarrier2>("vkCmdPipelineBarrier2")(commands, &dependency);
+    target_->copy(commands, size);
     return Status::Ok;
   });
   io::LinearImage image{size.width, size.height, {}};
-  const auto* rgba = static_cast<const float*>(readback_.data());
-  for (size_t i = 0; i < size_t{size.width} * size.height; ++i)
-    image.pixels.insert(image.pixels.end(), {rgba[4 * i], rgba[4 * i + 1], rgba[4 * i + 2]});
+  const std::vector<float> rgba = target_->pixels(size);
+  for (size_t i = 0; i < rgba.size(); i += 4)
+    image.pixels.insert(image.pixels.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
   return image;
 }
 
 Status Bench::recordRays(VkCommandBuffer commands, View* view, const Drawn& drawn,
                          const std::vector<SkyDraw>& draws) {
-  const FrameInfo frame = device_->frame();
-  barrier(commands, false);
+  target_->prepare(commands);
   const SkyDraw* sliced = nullptr;
   for (size_t i = 0; i < draws.size(); ++i) {
     const SkyDraw& draw = draws[i];
@@ -219,14 +166,14 @@ Status Bench::recordRays(VkCommandBuffer commands, View* view, const Drawn& draw
         std::equal(draw.sun.direction, draw.sun.direction + 3, sliced->sun.direction);
     Status status = Status::Ok;
     if (drawn.sliced && !same) {
-      status = recordSkySlice(view, commands, frame, drawn.tables, draw);
+      status = recordSkySlice(view, commands, drawn.tables, draw);
       sliced = &draw;
     }
     if (status != Status::Ok) return status;
-    begin(commands, draw.viewport,
-          i == 0 ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD);
-    status = recordSky(view, commands, frame, drawn.tables, draw);
-    function<PFN_vkCmdEndRendering>("vkCmdEndRendering")(commands);
+    target_->begin(commands, draw.viewport,
+                   i == 0 ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD);
+    status = recordSky(view, commands, drawn.tables, draw);
+    target_->end(commands);
     if (status != Status::Ok) return status;
   }
   return Status::Ok;
@@ -235,7 +182,7 @@ Status Bench::recordRays(VkCommandBuffer commands, View* view, const Drawn& draw
 std::vector<Spectrum> Bench::radiance(View* view, const Drawn& drawn, const Parameters& parameters,
                                       const std::vector<ProbeQuery>& rays) {
   std::vector<Spectrum> result;
-  const uint32_t width = target_.extent().width;
+  const uint32_t width = target_->extent().width;
   for (size_t first = 0; first < rays.size(); first += width) {
     const size_t count = std::min<size_t>(rays.size() - first, width);
     std::vector<SkyDraw> draws;
@@ -301,7 +248,7 @@ void Bench::upload(Tables* tables, TableId id, const std::vector<float>& rgba) {
     }
   }
   run([&](VkCommandBuffer commands) {
-    return recordTableUpload(tables, commands, device_->frame(), id, buffer.buffer(), 0);
+    return recordTableUpload(tables, commands, id, buffer.buffer(), 0);
   });
 }
 

@@ -3,7 +3,7 @@
 
 #include <alpenglow/alpenglow.h>
 #include <alpenglow/cost.h>
-#include <alpenglow/headless.h>
+#include <alpenglow/headless_target.h>
 
 #include <memory>
 #include <stdexcept>
@@ -23,12 +23,12 @@ class Failure : public std::runtime_error {
 /// Freed with the frame that the device is at.
 struct TablesDeleter {
   headless::Device* device = nullptr;
-  void operator()(Tables* tables) const { destroyTables(tables, device->frame()); }
+  void operator()(Tables* tables) const { destroyTables(tables); }
 };
 using TablesPointer = std::unique_ptr<Tables, TablesDeleter>;
 struct ViewDeleter {
   headless::Device* device = nullptr;
-  void operator()(View* view) const { destroyView(view, device->frame()); }
+  void operator()(View* view) const { destroyView(view); }
 };
 using ViewPointer = std::unique_ptr<View, ViewDeleter>;
 
@@ -82,23 +82,17 @@ class Bench {
  private:
   ImageInfo imageOf(const Tables* tables, TableId id);
   void upload(Tables* tables, TableId id, const std::vector<float>& rgba);
+  void advance();  ///< All that was recorded has completed.
   double run(const std::function<Status(VkCommandBuffer)>& record);
   Status recordRays(VkCommandBuffer commands, View* view, const Drawn& drawn,
                     const std::vector<SkyDraw>& draws);
-  void barrier(VkCommandBuffer commands, bool toCopy);
-  void begin(VkCommandBuffer commands, const VkRect2D& area, VkAttachmentLoadOp load);
-  template <typename Function>
-  Function function(const char* name) {
-    return reinterpret_cast<Function>(device_->function(name));
-  }
   void describeDriver();
 
   std::unique_ptr<headless::Device> device_;
   Context* context_ = nullptr;
   std::string error_, driver_, vulkan_;
   bool software_ = false;
-  headless::Image target_;
-  headless::HostBuffer readback_;
+  std::unique_ptr<headless::Target> target_;
 };
 
 /// The draw of a ray as a probe has it: a camera that looks along it, with a narrow field of view.

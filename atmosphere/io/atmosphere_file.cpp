@@ -69,8 +69,12 @@ Parameters atmosphereFromJson(JsonErrors* errors, const Json& value, const std::
   parameters.groundAlbedo = reader.spectrum("ground_albedo");
   parameters.solarIrradiance = reader.spectrum("solar_irradiance");
   parameters.sunAngularRadius = radians(reader.number("sun_angular_radius_deg"));
-  char message[512] = "";
-  if (errors->ok() && validate(parameters, message, sizeof message) != Status::Ok) {
+  std::string message;
+  const DiagnosticSink sink = {[](void* user, const Diagnostic& diagnostic) {
+                                 *static_cast<std::string*>(user) = diagnostic.message;
+                               },
+                               &message};
+  if (errors->ok() && validate(parameters, sink) != Status::Ok) {
     errors->first =
         "In '" + errors->file + (errors->where.empty() ? "': " : "', ") + errors->where + message;
   }
@@ -133,7 +137,7 @@ Done writeAtmosphere(const std::string& path, const Parameters& parameters) {
 
 Result<Parameters> findAtmosphere(const std::string& nameOrPath) {
   Parameters parameters;
-  if (findPreset(nameOrPath.c_str(), &parameters) == Status::Ok) return parameters;
+  if (findPreset(nameOrPath.c_str(), &parameters, {}) == Status::Ok) return parameters;
   return readAtmosphere(nameOrPath);
 }
 

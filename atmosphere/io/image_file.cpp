@@ -9,7 +9,7 @@
 #include "atmosphere/io/exr_header.h"
 #include "atmosphere/io/image_format.h"
 #include "atmosphere/io/oiio.h"
-#include "atmosphere/model/physics_cpp.h"
+#include "atmosphere/io/tone_curve.h"
 
 namespace alpenglow::io {
 namespace {
@@ -42,7 +42,7 @@ OIIO::ImageSpec rgbSpec(uint32_t width, uint32_t height, OIIO::TypeDesc type) {
 
 uint8_t encodeLevel(float linear) {
   const float clamped = linear > 0.0f ? std::min(linear, 1.0f) : 0.0f;
-  return static_cast<uint8_t>(255.0f * physics_f32::srgbEncode(clamped) + 0.5f);
+  return static_cast<uint8_t>(255.0f * tone::alpenglowSrgbEncode(clamped) + 0.5f);
 }
 
 // Bytes to linear light, and back by a table over the square root, which spreads the darks.

@@ -99,7 +99,7 @@ void readAtmosphereOf(JsonErrors* errors, const Json& value, const std::string& 
     return;
   }
   const std::string name = value.get<std::string>();
-  if (findPreset(name.c_str(), out) == Status::Ok) return;
+  if (findPreset(name.c_str(), out, {}) == Status::Ok) return;
   const std::string path = relativeTo(folder, name);
   std::error_code code;
   if (!std::filesystem::exists(path, code)) {
@@ -306,7 +306,7 @@ Result<Scene> readScene(const std::string& path) {
 Result<AtmosphereSource> findAtmosphereOrScene(const std::string& nameOrPath) {
   using Found = Result<AtmosphereSource>;
   AtmosphereSource source;
-  if (findPreset(nameOrPath.c_str(), &source.parameters) == Status::Ok) return source;
+  if (findPreset(nameOrPath.c_str(), &source.parameters, {}) == Status::Ok) return source;
   std::error_code code;
   if (!std::filesystem::exists(nameOrPath, code)) {
     return Found::failure("There is no preset and no file named '" + nameOrPath +

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 
 #include "atmosphere/io/atmosphere_json.h"
 #include "atmosphere/io/scene_json.h"
@@ -44,11 +45,10 @@ OrderedJson spectrumJson(const Spectrum& spectrum) {
 // Where the object would be a preset's, all digits of it, its name reads back as the same bits.
 OrderedJson atmosphereOf(const Parameters& parameters) {
   const std::string text = formatAtmosphere(parameters);
-  for (uint32_t i = 0; i < presetCount(); ++i) {
-    Parameters preset;
-    if (findPreset(presetName(i), &preset) != Status::Ok) continue;
-    if (formatAtmosphere(preset) == text) return presetName(i);
-  }
+  uint32_t count = 0;
+  const Preset* const all = presets(&count);
+  for (const Preset& preset : std::span(all, count))
+    if (formatAtmosphere(preset.parameters) == text) return preset.name;
   return atmosphereToJson(parameters);
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atmosphere/model/physics_cpp.h"
+#include "atmosphere/io/tone_curve.h"
 
 namespace alpenglow::io {
 namespace {
@@ -33,23 +33,23 @@ float ditherAt(uint32_t x, uint32_t y, uint32_t channel) {
   return static_cast<float>(h >> 8) * 0x1p-24f;
 }
 
-glm::vec3 mapTone(glm::vec3 color, ToneMap toneMap) {
+float mapTone(float value, ToneMap toneMap) {
   switch (toneMap) {
     case ToneMap::Filmic:
-      return physics_f32::toneMapFilmic(color);
+      return tone::alpenglowToneFilmic(value);
     case ToneMap::Reinhard:
-      return physics_f32::toneMapReinhard(color);
+      return tone::alpenglowToneReinhard(value);
     case ToneMap::Linear:
       break;
   }
-  return physics_f32::toneMapLinear(color);
+  return tone::alpenglowToneLinear(value);
 }
 
 // The ends are kept apart from the dither: black and white stay what they are. NaN is black.
 uint8_t encoded(float value, float dither) {
   if (value >= 1.0f) return 255;
   if (!(value > 0.0f)) return 0;
-  return static_cast<uint8_t>(std::floor(255.0f * physics_f32::srgbEncode(value) + dither));
+  return static_cast<uint8_t>(std::floor(255.0f * tone::alpenglowSrgbEncode(value) + dither));
 }
 
 }  // namespace
@@ -84,10 +84,9 @@ ByteImage toneMapped(const LinearImage& image, double exposure, ToneMap toneMap)
   for (uint32_t y = 0; y < image.height; ++y) {
     for (uint32_t x = 0; x < image.width; ++x) {
       const size_t first = (size_t{y} * image.width + x) * 3;
-      glm::vec3 color(image.pixels[first], image.pixels[first + 1], image.pixels[first + 2]);
-      color = mapTone(color * factor, toneMap);
       for (uint32_t c = 0; c < 3; ++c) {
-        out.pixels[first + c] = encoded(color[static_cast<int>(c)], ditherAt(x, y, c));
+        const float mapped = mapTone(image.pixels[first + c] * factor, toneMap);
+        out.pixels[first + c] = encoded(mapped, ditherAt(x, y, c));
       }
     }
   }

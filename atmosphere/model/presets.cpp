@@ -4,6 +4,8 @@
 
 #include <cstring>
 
+#include "atmosphere/model/sentence.h"
+
 namespace alpenglow {
 inline namespace v1 {
 namespace {
@@ -99,69 +101,62 @@ constexpr Parameters mars() {
   return p;
 }
 
-struct Preset {
-  const char* name;
-  const char* description;
-  const char* source;
-  Parameters parameters;
-};
-
 constexpr Preset kPresets[] = {
-    {"earth", "Earth with ozone; the default",
+    {"earth",
      "Bruneton & Neyret 2008, Precomputed Atmospheric Scattering, section 2.1 and figure 6, with "
      "the ozone layer of Bruneton 2017 (Precomputed Atmospheric Scattering: a New Implementation; "
      "cross sections of Serdyuchenko et al. 2014)",
-     earth()},
-    {"earth-fig6", "Earth of the paper's figure 6: beta_M 2e-5 per m, g 0.76, no ozone",
+     "Earth with ozone; the default", earth()},
+    {"earth-fig6",
      "Bruneton & Neyret 2008, Precomputed Atmospheric Scattering, section 2.1 and figure 6",
-     paperEarth(2e-5, 0.76)},
-    {"earth-fig7", "Earth of the paper's figure 7: beta_M 2.2e-5 per m, g 0.73, no ozone",
+     "Earth of the paper's figure 6: beta_M 2e-5 per m, g 0.76, no ozone", paperEarth(2e-5, 0.76)},
+    {"earth-fig7",
      "Bruneton & Neyret 2008, Precomputed Atmospheric Scattering, section 2.1 and figure 7",
+     "Earth of the paper's figure 7: beta_M 2.2e-5 per m, g 0.73, no ozone",
      paperEarth(2.2e-5, 0.73)},
-    {"earth-clear", "Earth with ozone and no aerosols",
+    {"earth-clear",
      "As earth, without aerosols: Bruneton & Neyret 2008, section 2.1, and Bruneton 2017",
-     earthClear()},
-    {"earth-hazy", "Earth with ozone under polluted continental haze, optical depth 0.33",
+     "Earth with ozone and no aerosols", earthClear()},
+    {"earth-hazy",
      "As earth, with the aerosols of Hess, Koepke & Schult 1998, Optical Properties of Aerosols "
      "and Clouds (OPAC), BAMS 79, table 4: continental polluted, 550 nm, 80 % humidity",
-     earthHazy()},
-    {"mars", "Mars under ordinary dust, optical depth 0.5",
+     "Earth with ozone under polluted continental haze, optical depth 0.33", earthHazy()},
+    {"mars",
      "Dust: Smith & Lemmon 1999 (JGR 104, 8975), Lemmon et al. 2004 (Science 306, 1753), "
      "Ockert-Bell et al. 1997 (JGR 102, 9039), Wolff et al. 2009 (JGR 114, E00D04), Chen-Chen et "
      "al. 2019 (Icarus 330, 16); CO2: Sneep & Ubachs 2005 (JQSRT 92, 293); ground: Mallama 2007 "
      "(Icarus 192, 404)",
-     mars()},
+     "Mars under ordinary dust, optical depth 0.5", mars()},
 };
 
 constexpr uint32_t kPresetCount = static_cast<uint32_t>(sizeof(kPresets) / sizeof(kPresets[0]));
 
 }  // namespace
 
-uint32_t presetCount() { return kPresetCount; }
-
-const char* presetName(uint32_t index) {
-  return index < kPresetCount ? kPresets[index].name : nullptr;
+const Preset* presets(uint32_t* count) {
+  if (count != nullptr) *count = kPresetCount;
+  return kPresets;
 }
 
-const char* presetSource(uint32_t index) {
-  return index < kPresetCount ? kPresets[index].source : nullptr;
-}
-
-const char* presetDescription(uint32_t index) {
-  return index < kPresetCount ? kPresets[index].description : nullptr;
-}
-
-Status findPreset(const char* name, Parameters* out) {
-  if (name == nullptr || out == nullptr) {
-    return Status::InvalidArgument;
-  }
+Status findPreset(const char* name, Parameters* out, const DiagnosticSink& sink) {
+  if (out == nullptr) return model::reportNull(sink, "findPreset", "the parameters");
   for (const Preset& preset : kPresets) {
-    if (std::strcmp(preset.name, name) == 0) {
-      *out = preset.parameters;
-      return Status::Ok;
-    }
+    if (name == nullptr || std::strcmp(preset.name, name) != 0) continue;
+    *out = preset.parameters;
+    return Status::Ok;
   }
-  return Status::InvalidArgument;
+  model::Sentence why;
+  if (name == nullptr) {
+    why << "findPreset got no name";
+  } else {
+    // A list of the names must follow in any case.
+    char shown[64];
+    (model::Sentence() << name).copyTo(shown, sizeof shown);
+    why << "There is no preset named \"" << shown << "\"";
+  }
+  why << "; these exist: ";
+  for (const Preset& preset : kPresets) why << (&preset == kPresets ? "" : ", ") << preset.name;
+  return model::report(sink, Status::InvalidArgument, why << ".");
 }
 
 }  // namespace v1

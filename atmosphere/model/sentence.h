@@ -49,13 +49,21 @@ class Sentence {
   size_t length_ = 0;
 };
 
-/// Reports the sentence to a callback that may be null, and returns the status, so that
-/// `return report(...)` reads naturally.
-inline Status report(DiagnosticFn diagnostic, void* user, Status status, const Sentence& sentence) {
-  if (diagnostic != nullptr) {
-    diagnostic(user, {Severity::Error, status, VK_SUCCESS, sentence.text()});
-  }
+/// Reports the sentence as an Error, and returns the status, so that `return report(...)` reads
+/// naturally.
+inline Status report(const DiagnosticSink& sink, Status status, const Sentence& sentence) {
+  if (sink.report != nullptr)
+    sink.report(sink.user, {Severity::Error, status, VK_SUCCESS, sentence.text()});
   return status;
+}
+inline Status report(const DiagnosticSink& sink, Status status, const char* text) {
+  return report(sink, status, Sentence() << text);
+}
+
+/// Of a function that was given null where it needs a place for its answer, or an array.
+inline Status reportNull(const DiagnosticSink& sink, const char* function, const char* argument) {
+  return report(sink, Status::InvalidArgument,
+                Sentence() << function << " got null for " << argument << ", but needs it.");
 }
 
 }  // namespace alpenglow::model

@@ -118,7 +118,7 @@ void checkAbsorption(Checker& check, const AbsorptionParameters& absorption) {
 
 }  // namespace
 
-Status validate(const Parameters& parameters, char* message, size_t messageSize) {
+Status validate(const Parameters& parameters, const DiagnosticSink& sink) {
   Checker check;
   checkPlanet(check, parameters);
   if (parameters.rayleigh.present) {
@@ -136,8 +136,8 @@ Status validate(const Parameters& parameters, char* message, size_t messageSize)
   // Rounded on the way from the file's degrees to radians and back: 10 must not become 10.000...2.
   const double degrees = std::round(parameters.sunAngularRadius / kDegree * 1e12) / 1e12;
   check.inRange({"sun_angular_radius_deg"}, degrees, 0.0, kMaxSunAngularRadius_deg, " degrees");
-  check.sentence().copyTo(message, messageSize);
-  return check.failed() ? Status::InvalidArgument : Status::Ok;
+  if (!check.failed()) return Status::Ok;
+  return report(sink, Status::InvalidArgument, check.sentence());
 }
 
 }  // namespace v1

@@ -66,12 +66,10 @@ Class classOf(const Parameters& parameters) {
 
 double errorOf(const Parameters& parameters, const Plan& plan, uint32_t level) {
   const Class air = classOf(parameters);
-  const SunRange suns = widened(parameters, plan.needs);
+  const SunRange suns = widened(parameters, plan.request);
   // What can't be seen has no error.
-  const double from = plan.effects[static_cast<uint32_t>(Effect::Twilight)].on ||
-                              plan.effects[static_cast<uint32_t>(Effect::Night)].on
-                          ? suns.from
-                          : std::max(suns.from, std::min(0.0, suns.to));
+  const bool dark = isOn(plan, Effect::Twilight) || isOn(plan, Effect::Night);
+  const double from = dark ? suns.from : std::max(suns.from, std::min(0.0, suns.to));
   double worst = 0.0;
   for (uint32_t band = 0; band < kBands; ++band) {
     const Band& ends = kBandEnds[band];
@@ -88,8 +86,9 @@ double errorOf(const Parameters& parameters, const Plan& plan, uint32_t level) {
 double percent(double share) { return std::round(share * 1e4) / 100.0; }
 double degrees(double radians) { return std::round(radians / kDegree * 100.0) / 100.0; }
 
-void describeSuns(const TableDesc& base, Plan* plan) {
-  const TableDesc& desc = plan->tableDesc;
+void describeSuns(Plan* plan) {
+  const TableDesc& base = plan->request.tables;
+  const TableDesc& desc = plan->tables;
   model::Sentence value, why;
   const bool any = desc.sunZenithFrom == 0.0 && desc.sunZenithTo == 0.0;
   if (any) {
@@ -103,16 +102,17 @@ void describeSuns(const TableDesc& base, Plan* plan) {
     if (base.sunZenithFrom != 0.0 || base.sunZenithTo != 0.0) {
       why << "Given by the host.";
     } else {
-      why << "The sun stays from " << degrees(plan->needs.sunElevationFrom) << " to "
-          << degrees(plan->needs.sunElevationTo)
+      why << "The sun stays from " << degrees(plan->request.sunElevationFrom) << " to "
+          << degrees(plan->request.sunElevationTo)
           << " degrees high, and places in view have it up to the horizon's arc off.";
     }
   }
   addChoice(plan, "sun_zenith", value, why);
 }
 
-void describeDepths(const TableDesc& base, Plan* plan) {
-  const TableSizes& settings = plan->tableDesc.sizes;
+void describeDepths(Plan* plan) {
+  const TableDesc& base = plan->request.tables;
+  const TableSizes& settings = plan->tables.sizes;
   if (settings.depthMu == base.sizes.depthMu && settings.depthH == base.sizes.depthH) return;
   model::Sentence value, why;
   value << settings.depthMu << " x " << settings.depthH;
@@ -128,10 +128,10 @@ void describeAltitude(const Parameters& parameters, Plan* plan) {
   addChoice(plan, "altitude", value, why);
 }
 
-void describeOrders(const TableDesc& base, uint32_t solved, Plan* plan) {
+void describeOrders(uint32_t solved, Plan* plan) {
+  const TableDesc& base = plan->request.tables;
   model::Sentence value, why;
-  const bool multiple =
-      plan->effects[static_cast<uint32_t>(Effect::MultipleScattering)].on || base.orders > 1;
+  const bool multiple = isOn(*plan, Effect::MultipleScattering) || base.orders > 1;
   if (base.solver != Solver::Moments && base.solver != Solver::Standard) return;
   if (base.orders != 0) {
     value << base.orders;
@@ -155,7 +155,7 @@ void describeSlice(Plan* plan) {
   value << (plan->skySlice ? "on" : "off");
   if (plan->skySlice) {
     why << "A frame has more pixels than the slice has rays, so light is looked up in it.";
-  } else if (plan->needs.projection == Projection::Orthographic) {
+  } else if (plan->request.projection == Projection::Orthographic) {
     why << "Each ray of an orthographic camera has an observer of its own.";
   } else {
     why << "This solver makes no slice for cameras above the air.";
@@ -172,12 +172,12 @@ void describeShafts(Plan* plan) {
   addChoice(plan, "shafts", value, why);
 }
 
-void describeQuality(const Parameters& parameters, const TableDesc& base, Quality unbound,
-                     Plan* plan) {
+void describeQuality(const Parameters& parameters, Quality unbound, Plan* plan) {
+  const TableDesc& base = plan->request.tables;
   if (base.solver != Solver::Moments) return;
   const Class air = classOf(parameters);
-  const Quality level = levelOf(plan->tableDesc.quality);
-  const double wanted = percent(wantedError(plan->needs));
+  const Quality level = levelOf(plan->tables.quality);
+  const double wanted = percent(wantedError(plan->request));
   model::Sentence value, why;
   value << levelName(level);
   if (base.quality != Quality::Default) {
@@ -201,16 +201,18 @@ Quality levelOf(Quality quality) { return quality == Quality::Default ? Quality:
 const char* levelName(Quality quality) { return kNames[indexOf(quality)]; }
 
 void setQuality(const Parameters& parameters, Quality quality, Plan* plan) {
-  plan->tableDesc.quality = quality;
+  plan->tables.quality = quality;
   plan->expectedError = errorOf(parameters, *plan, indexOf(quality));
-  plan->errorMet = plan->expectedError <= wantedError(plan->needs);
+  plan->errorMet = plan->expectedError <= wantedError(plan->request);
 }
 
-void decideQuality(const Parameters& parameters, const TableDesc& base, Plan* plan) {
+void decideQuality(const Parameters& parameters, Plan* plan) {
+  const TableDesc& base = plan->request.tables;
+  plan->errorMet = true;  // Of other solvers none is expected.
   if (base.solver != Solver::Moments) return;
   if (base.quality != Quality::Default) return setQuality(parameters, base.quality, plan);
-  // Who names no error gets at most the default level.
-  const Quality finest = plan->needs.error > 0.0 ? Quality::Ultra : Quality::Medium;
+  // Without a target at most the default level.
+  const Quality finest = plan->request.errorTarget > 0.0 ? Quality::Ultra : Quality::Medium;
   for (Quality level = Quality::Draft; level <= finest;
        level = static_cast<Quality>(static_cast<uint32_t>(level) + 1)) {
     setQuality(parameters, level, plan);
@@ -218,9 +220,10 @@ void decideQuality(const Parameters& parameters, const TableDesc& base, Plan* pl
   }
 }
 
-void fitDepths(const TableDesc& base, Plan* plan) {
+void fitDepths(Plan* plan) {
+  const TableDesc& base = plan->request.tables;
   constexpr double kFewSuns = 20.0 * kDegree;
-  TableDesc& desc = plan->tableDesc;
+  TableDesc& desc = plan->tables;
   const bool few = desc.sunZenithTo > 0.0 && desc.sunZenithTo - desc.sunZenithFrom <= kFewSuns;
   const bool fine = levelOf(desc.quality) >= Quality::Medium;
   if (base.solver != Solver::Moments || !few || !fine) return;
@@ -228,14 +231,14 @@ void fitDepths(const TableDesc& base, Plan* plan) {
   if (base.sizes.depthH == 0) desc.sizes.depthH = kFewDepthH;
 }
 
-void describeChoices(const Parameters& parameters, const TableDesc& base, uint32_t solvedOrders,
-                     Quality unbound, Plan* plan) {
-  plan->choiceCount = 0;
-  describeSuns(base, plan);
-  describeDepths(base, plan);
+void describeChoices(const Parameters& parameters, uint32_t solvedOrders, Quality unbound,
+                     Plan* plan) {
+  plan->choiceCount = kEffectCount;
+  describeSuns(plan);
+  describeDepths(plan);
   describeAltitude(parameters, plan);
-  describeQuality(parameters, base, unbound, plan);
-  describeOrders(base, solvedOrders, plan);
+  describeQuality(parameters, unbound, plan);
+  describeOrders(solvedOrders, plan);
   describeSlice(plan);
   describeShafts(plan);
 }

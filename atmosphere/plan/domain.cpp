@@ -33,13 +33,13 @@ double horizonArc(double radius_m, double altitude_m) {
 
 }  // namespace
 
-SunRange widened(const Parameters& parameters, const Needs& needs) {
-  SunRange range = sunRange(needs);
+SunRange widened(const Parameters& parameters, const PlanRequest& request) {
+  SunRange range = sunRange(request);
   const Air air = airOf(parameters);
-  double arc = needs.altitudeTo_m == 0.0
+  double arc = request.altitudeTo_m == 0.0
                    ? kRightAngle
-                   : horizonArc(parameters.bottomRadius_m, needs.altitudeTo_m);
-  if (mayBeInSpace(air, needs)) arc += air.dipOfTop;
+                   : horizonArc(parameters.bottomRadius_m, request.altitudeTo_m);
+  if (mayBeInSpace(air, request)) arc += air.dipOfTop;
   range.from = std::max(range.from - arc, -kRightAngle);
   range.to = std::min(range.to + arc, kRightAngle);
   return range;

@@ -12,14 +12,14 @@ double percent(double share) { return std::round(share * 1e4) / 100.0; }
 
 class Decider {
  public:
-  Decider(const Parameters& parameters, const TableDesc& base, Plan* plan)
+  Decider(const Parameters& parameters, Plan* plan)
       : p_(parameters),
-        base_(base),
+        base_(plan->request.tables),
         plan_(plan),
-        needs_(plan->needs),
+        request_(plan->request),
         air_(airOf(parameters)),
-        error_(wantedError(plan->needs)),
-        range_(widened(parameters, plan->needs)) {}
+        error_(wantedError(plan->request)),
+        range_(widened(parameters, plan->request)) {}
 
   void decide() {
     matter(Effect::Rayleigh, p_.rayleigh.present, air_.rayleighShare, "molecules");
@@ -36,39 +36,41 @@ class Decider {
   }
 
  private:
-  EffectChoice& at(Effect effect) { return plan_->effects[static_cast<uint32_t>(effect)]; }
-  bool on(Effect effect) { return at(effect).on; }
+  bool on(Effect effect) const { return isOn(*plan_, effect); }
+
+  void write(Effect effect, bool on, bool forced, const model::Sentence& reason) {
+    PlanChoice& choice = choiceOf(plan_, effect);
+    choice = {};
+    (model::Sentence() << effectName(effect)).copyTo(choice.name, sizeof choice.name);
+    (model::Sentence() << (on ? "on" : "off")).copyTo(choice.value, sizeof choice.value);
+    choice.on = on;
+    choice.forced = forced;
+    copyReason(reason, &choice);
+  }
 
   // What the host decides beats what is found here.
   void set(Effect effect, bool on, const model::Sentence& reason) {
-    EffectChoice& choice = at(effect);
-    const Force force = needs_.effects[static_cast<uint32_t>(effect)];
+    const Force force = request_.effects[static_cast<uint32_t>(effect)];
     model::Sentence why;
     const bool table = (kTableEffects & effectBit(effect)) != 0;
-    choice = {};
     if (force != Force::Auto) {
-      choice.on = force == Force::On;
-      choice.forced = true;
-      why << "Turned " << (choice.on ? "on" : "off") << " by the scene.";
+      const bool forcedOn = force == Force::On;
+      why << "Turned " << (forcedOn ? "on" : "off") << " by the scene.";
+      write(effect, forcedOn, true, why);
     } else if (table && !hasEffect(base_.disabledEffects, effect)) {
-      choice.forced = true;
       why << "The given description of the tables is without it.";
+      write(effect, false, true, why);
     } else if (table && base_.solver != Solver::Moments) {
-      choice.on = true;
       why << "Only tables of the solver moments can be without it.";
+      write(effect, true, false, why);
     } else {
-      choice.on = on;
-      why = reason;
+      write(effect, on, false, reason);
     }
-    copyReason(why, &choice);
   }
 
   // Whatever the host says, it can't be.
   void impossible(Effect effect, const char* reason) {
-    model::Sentence why;
-    why << reason;
-    at(effect) = {};
-    copyReason(why, &at(effect));
+    write(effect, false, false, model::Sentence() << reason);
   }
 
   void matter(Effect effect, bool present, double share, const char* what) {
@@ -133,7 +135,7 @@ class Decider {
                  "Light of the sky on surfaces is of two events, which are left out.");
       return;
     }
-    const bool ground = sees(needs_, kSeenGround), terrain = sees(needs_, kSeenTerrain);
+    const bool ground = sees(request_, kVisibleGround), terrain = sees(request_, kVisibleScene);
     model::Sentence why;
     if (ground || terrain) {
       why << (ground ? "The ground" : "The scene's terrain")
@@ -146,33 +148,31 @@ class Decider {
 
   void seen() {
     model::Sentence ground, disc, air;
-    ground << "The ground " << (sees(needs_, kSeenGround) ? "may come" : "doesn't come")
+    ground << "The ground " << (sees(request_, kVisibleGround) ? "may come" : "doesn't come")
            << " into view.";
-    set(Effect::Ground, sees(needs_, kSeenGround), ground);
-    if (needs_.projection == Projection::Orthographic && !on(Effect::Ground)) {
+    set(Effect::Ground, sees(request_, kVisibleGround), ground);
+    if (request_.projection == Projection::Orthographic && !on(Effect::Ground)) {
       model::Sentence why;
       why << "Rays of an orthographic camera may end on the ground.";
-      at(Effect::Ground) = {};
-      at(Effect::Ground).on = true;
-      copyReason(why, &at(Effect::Ground));
+      write(Effect::Ground, true, false, why);
     }
-    const bool drawn = needs_.sunDiscRadius > 0.0 && sees(needs_, kSeenSun);
-    if (needs_.sunDiscRadius <= 0.0) {
+    const bool drawn = request_.sunDiscRadius > 0.0 && sees(request_, kVisibleSun);
+    if (request_.sunDiscRadius <= 0.0) {
       disc << "The sun is drawn without a disc.";
     } else if (drawn) {
-      disc << "A disc of " << degrees(needs_.sunDiscRadius) << " degrees may come into view.";
+      disc << "A disc of " << degrees(request_.sunDiscRadius) << " degrees may come into view.";
     } else {
       disc << "The sun doesn't come into view.";
     }
     set(Effect::SunDisc, drawn, disc);
-    if (needs_.projection == Projection::Fisheye) {
+    if (request_.projection == Projection::Fisheye) {
       impossible(Effect::AerialPerspective,
                  "A fisheye view has no depth image: a host's scene is drawn as triangles.");
       return;
     }
-    air << (sees(needs_, kSeenTerrain) ? "The host's scene may stand in the air in view."
-                                       : "No scene of the host's comes into view.");
-    set(Effect::AerialPerspective, sees(needs_, kSeenTerrain), air);
+    air << (sees(request_, kVisibleScene) ? "The host's scene may stand in the air in view."
+                                          : "No scene of the host's comes into view.");
+    set(Effect::AerialPerspective, sees(request_, kVisibleScene), air);
   }
 
   void shafts() {
@@ -188,7 +188,7 @@ class Decider {
     const double lowest = -air_.dipOfTop - kDegree;
     const bool lit = range_.to > lowest;
     model::Sentence why;
-    if (!needs_.occluders) {
+    if (!request_.casters) {
       why << "Nothing casts shadows.";
     } else if (lit) {
       why << "Casters stand in air that the sun lights from up to " << degrees(range_.to)
@@ -197,25 +197,24 @@ class Decider {
       why << "The sun stays below " << degrees(lowest)
           << " degrees: the planet's own shadow covers all casters.";
     }
-    set(Effect::LightShafts, needs_.occluders && lit, why);
+    set(Effect::LightShafts, request_.casters && lit, why);
   }
 
   void space() {
-    const bool high = mayBeInSpace(air_, needs_);
-    if (needs_.projection == Projection::Orthographic && !high) {
+    const bool high = mayBeInSpace(air_, request_);
+    if (request_.projection == Projection::Orthographic && !high) {
       model::Sentence why;
       why << "Rays of an orthographic camera may begin above the air.";
-      at(Effect::SpaceViews) = {};
-      at(Effect::SpaceViews).on = true;
-      copyReason(why, &at(Effect::SpaceViews));
+      write(Effect::SpaceViews, true, false, why);
       return;
     }
     model::Sentence why;
-    if (needs_.altitudeTo_m == 0.0) {
+    if (request_.altitudeTo_m == 0.0) {
       why << "The camera's altitude has no limit; the air ends at " << air_.thickness_m << " m.";
     } else {
-      why << "The camera stays between " << needs_.altitudeFrom_m << " and " << needs_.altitudeTo_m
-          << " m" << (high ? ", and the air ends at " : ", below the top of the air at ")
+      why << "The camera stays between " << request_.altitudeFrom_m << " and "
+          << request_.altitudeTo_m << " m"
+          << (high ? ", and the air ends at " : ", below the top of the air at ")
           << air_.thickness_m << " m.";
     }
     set(Effect::SpaceViews, high, why);
@@ -223,10 +222,10 @@ class Decider {
 
   // The lowest sun whose light is seen: only where the table of brightness holds, low in the air.
   double visible() const {
-    const bool low = needs_.altitudeTo_m > 0.0 && needs_.altitudeTo_m <= 3000.0;
+    const bool low = request_.altitudeTo_m > 0.0 && request_.altitudeTo_m <= 3000.0;
     const double brightest =
         *std::max_element(p_.solarIrradiance.value, p_.solarIrradiance.value + kSpectrumSize);
-    return low ? lowestVisibleSun(air_, brightest, needs_.exposureTo) : lowestSun();
+    return low ? lowestVisibleSun(air_, brightest, request_.exposure) : lowestSun();
   }
 
   void dark(Effect effect, double above, const char* called, bool reaches) {
@@ -236,7 +235,7 @@ class Decider {
     why << "The sun, from " << degrees(range_.from) << " to " << degrees(range_.to)
         << " degrees high over all places in view, ";
     if (hidden) {
-      why << "gives less than half an 8-bit step at exposure " << needs_.exposureTo << " below "
+      why << "gives less than half an 8-bit step at exposure " << request_.exposure << " below "
           << degrees(lowest) << ".";
     } else {
       why << (reaches ? "reaches " : "never reaches ") << called << ".";
@@ -255,39 +254,40 @@ class Decider {
   const Parameters& p_;
   const TableDesc& base_;
   Plan* plan_;
-  const Needs& needs_;
+  const PlanRequest& request_;
   Air air_;
   double error_;
   SunRange range_;
 };
 
-// Suns of the tables: those of the needs, less what can't be seen, and more where an effect is on
+// Suns of the tables: those of the request, less what can't be seen, and more where an effect is on
 // all the same.
 SunRange tableSuns(const Parameters& parameters, const Plan& plan) {
-  const SunRange all = widened(parameters, plan.needs);
+  const SunRange all = widened(parameters, plan.request);
   double from = all.from;
-  const auto& twilight = plan.effects[static_cast<uint32_t>(Effect::Twilight)];
-  const auto& night = plan.effects[static_cast<uint32_t>(Effect::Night)];
+  const bool twilight = isOn(plan, Effect::Twilight), night = isOn(plan, Effect::Night);
   constexpr double kNight = -18.0 * kDegree;
-  if (!night.on) from = std::max(from, kNight);
-  if (!twilight.on && !night.on) from = std::max(from, 0.0);
-  if (twilight.on && all.from >= 0.0) from = kNight;
-  if (night.on && all.from >= kNight) from = lowestSun();
+  if (!night) from = std::max(from, kNight);
+  if (!twilight && !night) from = std::max(from, 0.0);
+  if (twilight && all.from >= 0.0) from = kNight;
+  if (night && all.from >= kNight) from = lowestSun();
   return {std::min(from, all.to), all.to};
 }
 
 }  // namespace
 
-void decideEffects(const Parameters& parameters, const TableDesc& base, Plan* plan) {
-  Decider(parameters, base, plan).decide();
+void decideEffects(const Parameters& parameters, Plan* plan) {
+  plan->choiceCount = kEffectCount;
+  Decider(parameters, plan).decide();
 }
 
-void applyEffects(const Parameters& parameters, const TableDesc& base, Plan* plan) {
-  const auto on = [plan](Effect effect) { return plan->effects[static_cast<uint32_t>(effect)].on; };
-  TableDesc& desc = plan->tableDesc;
+void applyEffects(const Parameters& parameters, Plan* plan) {
+  const auto on = [plan](Effect effect) { return isOn(*plan, effect); };
+  const TableDesc& base = plan->request.tables;
+  TableDesc& desc = plan->tables;
   EffectFlags without = 0;
   for (uint32_t i = 0; i < kEffectCount; ++i)
-    if (!plan->effects[i].on) without |= effectBit(static_cast<Effect>(i));
+    if (!plan->choices[i].on) without |= effectBit(static_cast<Effect>(i));
   const bool moments = desc.solver == Solver::Moments;
   desc.disabledEffects = moments ? without & kTableEffects : base.disabledEffects;
   plan->viewWithout = (without & kViewEffects) | desc.disabledEffects;
@@ -300,7 +300,7 @@ void applyEffects(const Parameters& parameters, const TableDesc& base, Plan* pla
     desc.sunZenithTo = any ? 0.0 : std::clamp(kRightAngle - suns.from, 1e-6, 2.0 * kRightAngle);
   }
   const bool slices = desc.solver == Solver::Standard || desc.solver == Solver::Hillaire;
-  plan->skySlice = plan->needs.projection != Projection::Orthographic &&
+  plan->skySlice = plan->request.projection != Projection::Orthographic &&
                    (moments || (slices && !on(Effect::SpaceViews)));
   plan->sceneDepth = on(Effect::AerialPerspective);
   plan->shafts = on(Effect::LightShafts);

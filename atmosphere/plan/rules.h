@@ -26,49 +26,69 @@ struct Air {
 Air airOf(const Parameters& parameters);
 
 /// Ok, or a sentence about the wrong field.
-Status checkNeeds(const Needs& needs, model::Sentence* why);
-Status checkBase(const Needs& needs, const TableDesc& base, model::Sentence* why);
-double wantedError(const Needs& needs);
+Status checkRequest(const PlanRequest& request, model::Sentence* why);
+/// Its tables, which a bake would take, with what the rest of it asks for.
+Status checkTables(const PlanRequest& request, model::Sentence* why);
+double wantedError(const PlanRequest& request);
 
 /// Elevations of the sun, radians, lowest first.
 struct SunRange {
   double from, to;
 };
-/// As the needs have it; all of them where they don't say.
-SunRange sunRange(const Needs& needs);
+/// As the request has it; all of them where it doesn't say.
+SunRange sunRange(const PlanRequest& request);
 /// And seen from all places where light is asked for: as far as the horizon, from above the top of
 /// the air as far as the limb's far side.
-SunRange widened(const Parameters& parameters, const Needs& needs);
+SunRange widened(const Parameters& parameters, const PlanRequest& request);
 /// The lowest sun whose sky light may be seen at this exposure; 0: any.
 double lowestVisibleSun(const Air& air, double brightest, double exposure);
 /// The lowest elevation of any sun: -pi/2.
 double lowestSun();
-bool limitsSun(const Needs& needs);
-bool mayBeInSpace(const Air& air, const Needs& needs);
-bool sees(const Needs& needs, Seen what);
+bool limitsSun(const PlanRequest& request);
+bool mayBeInSpace(const Air& air, const PlanRequest& request);
+bool sees(const PlanRequest& request, VisibilityFlag what);
 
 /// Effects on or off, forced or not, and why.
-void decideEffects(const Parameters& parameters, const TableDesc& base, Plan* plan);
+void decideEffects(const Parameters& parameters, Plan* plan);
 /// From the effects that are on: what tables and views are without, the range of suns, the slice.
-void applyEffects(const Parameters& parameters, const TableDesc& base, Plan* plan);
+void applyEffects(const Parameters& parameters, Plan* plan);
 
 /// The lowest level that meets the error, by measured tables.
-void decideQuality(const Parameters& parameters, const TableDesc& base, Plan* plan);
+void decideQuality(const Parameters& parameters, Plan* plan);
 /// Sets a level and what error it has; Draft ... Ultra.
 void setQuality(const Parameters& parameters, Quality quality, Plan* plan);
 Quality levelOf(Quality quality);  ///< Default is Medium.
 const char* levelName(Quality quality);
 
-void copyReason(const model::Sentence& sentence, EffectChoice* choice);
+void add(PlanCost* to, const PlanCost& more);
+/// Never below 0.
+PlanCost difference(const PlanCost& more, const PlanCost& less);
+/// Of the map from the sun; one draw of casters and the surface between light and shadow from
+/// tables and from an air volume, and the culling of its blocks.
+PlanCost shaftCost(const Plan& plan);
+/// ShaftsDesc::sunMapSize as it is left; images of the picture's size are the host's to tell.
+inline constexpr uint32_t kSunMapSize = 2048;
+ImageInfo shadowMapImage();
+double bakeSeconds(const PlanRequest& request, const PlanCost& cost);
+/// And the time of a bake, and whether both keep within the budget.
+void setCost(const PlanCost& cost, Plan* plan);
+
+void copyReason(const model::Sentence& sentence, PlanChoice* choice);
+inline PlanChoice& choiceOf(Plan* plan, Effect effect) {
+  return plan->choices[static_cast<uint32_t>(effect)];
+}
+inline bool isOn(const Plan& plan, Effect effect) {
+  return plan.choices[static_cast<uint32_t>(effect)].on;
+}
 /// Appends a choice.
 PlanChoice* addChoice(Plan* plan, const char* name, const model::Sentence& value,
                       const model::Sentence& reason);
-/// All choices in words; `unbound` is the level that the error alone would have.
 /// With tables for few suns, fewer optical depths, unless the host gives their number:
 /// docs/moment-solver.md, "Nodes", has what it costs.
-void fitDepths(const TableDesc& base, Plan* plan);
+void fitDepths(Plan* plan);
 inline constexpr uint32_t kFewDepthMu = 128, kFewDepthH = 64;
-void describeChoices(const Parameters& parameters, const TableDesc& base, uint32_t solvedOrders,
-                     Quality unbound, Plan* plan);
+/// All choices but the effects in words; `unbound` is the level that the error alone would have.
+void describeChoices(const Parameters& parameters, uint32_t solvedOrders, Quality unbound,
+                     Plan* plan);
 
 }  // namespace alpenglow::plan

@@ -33,7 +33,8 @@ double bandSunElevation(const physics_f64::Medium& medium, const ProbeQuery& que
 inline namespace v1 {
 
 double bandSunElevation(const Parameters& parameters, const ProbeQuery& query) {
-  if (!reference::isValid(query) || validate(parameters, nullptr, 0) != Status::Ok) return 0.0;
+  if (reference::checkQuery(query, {}) != Status::Ok || validate(parameters, {}) != Status::Ok)
+    return 0.0;
   return reference::bandSunElevation(makeMediumF64(parameters), query);
 }
 

@@ -4,6 +4,7 @@
 #include <new>
 #include <numbers>
 
+#include "atmosphere/model/sentence.h"
 #include "atmosphere/reference/estimate.h"
 #include "atmosphere/reference/single_scattering.h"
 
@@ -79,19 +80,25 @@ ReferenceAnswer evaluate(const PathTracer& tracer, const ProbeQuery& query,
   return answer;
 }
 
+ReferenceOptions completed(const ReferenceOptions& options) {
+  ReferenceOptions full = options;
+  if (full.targetError == 0.0) full.targetError = 1e-3;
+  if (full.maxSamples == 0) full.maxSamples = uint64_t{1} << 19;
+  return full;
+}
+
 }  // namespace
 }  // namespace reference
 
 inline namespace v1 {
 
-Status createReference(const Parameters& parameters, Reference** out) {
-  if (out == nullptr || validate(parameters, nullptr, 0) != Status::Ok) {
-    return Status::InvalidArgument;
-  }
+Status createReference(const Parameters& parameters, Reference** out, const DiagnosticSink& sink) {
+  if (out == nullptr) return model::reportNull(sink, "createReference", "the reference");
+  if (Status status = validate(parameters, sink); status != Status::Ok) return status;
   try {
     *out = new Reference(parameters);
   } catch (const std::bad_alloc&) {
-    return Status::OutOfHostMemory;
+    return reference::outOfMemory(sink, "createReference");
   }
   return Status::Ok;
 }
@@ -99,24 +106,32 @@ Status createReference(const Parameters& parameters, Reference** out) {
 void destroyReference(Reference* reference) { delete reference; }
 
 Status evaluateReference(const Reference* reference, const ProbeQuery& query,
-                         const ReferenceOptions& options, ReferenceAnswer* out) {
-  const bool goodTarget = options.samples > 0 || options.targetError > 0.0;
-  if (reference == nullptr || out == nullptr || !reference::isValid(query) || !goodTarget) {
-    return Status::InvalidArgument;
+                         const ReferenceOptions& options, ReferenceAnswer* out,
+                         const DiagnosticSink& sink) {
+  constexpr const char* kName = "evaluateReference";
+  if (reference == nullptr) return model::reportNull(sink, kName, "the reference");
+  if (out == nullptr) return model::reportNull(sink, kName, "the answer");
+  if (Status status = reference::checkQuery(query, sink); status != Status::Ok) return status;
+  if (!(options.targetError >= 0.0)) {
+    return model::report(sink, Status::InvalidArgument,
+                         model::Sentence()
+                             << "ReferenceOptions::targetError is " << options.targetError
+                             << ", but it must be above 0, or 0 for the default.");
   }
   try {
-    *out = reference::evaluate(reference->tracer, query, options);
+    *out = reference::evaluate(reference->tracer, query, reference::completed(options));
   } catch (const std::bad_alloc&) {
-    return Status::OutOfHostMemory;
+    return reference::outOfMemory(sink, kName);
   }
   return Status::Ok;
 }
 
 Status evaluateReference(const Parameters& parameters, const ProbeQuery& query,
-                         const ReferenceOptions& options, ReferenceAnswer* out) {
+                         const ReferenceOptions& options, ReferenceAnswer* out,
+                         const DiagnosticSink& sink) {
   Reference* prepared = nullptr;
-  Status status = createReference(parameters, &prepared);
-  if (status == Status::Ok) status = evaluateReference(prepared, query, options, out);
+  Status status = createReference(parameters, &prepared, sink);
+  if (status == Status::Ok) status = evaluateReference(prepared, query, options, out, sink);
   destroyReference(prepared);
   return status;
 }

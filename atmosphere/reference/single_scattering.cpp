@@ -1,9 +1,11 @@
 #include "atmosphere/reference/single_scattering.h"
 
+#include <limits>
 #include <new>
 #include <numbers>
 
 #include "atmosphere/model/query.h"
+#include "atmosphere/model/sentence.h"
 #include "atmosphere/reference/shadow.h"
 
 namespace alpenglow {
@@ -231,17 +233,36 @@ Estimate groundRadiance(const Medium& medium, const SunlitRay& ray, const Estima
 
 }  // namespace
 
-/// Queries in degrees come as rounded radians, so the nadir may exceed pi by a bit.
-static bool isZenithAngle(double angle) {
-  return angle >= 0.0 && angle <= std::numbers::pi * (1 + 1e-15);
+Status checkQuery(const ProbeQuery& query, const DiagnosticSink& sink) {
+  // Queries in degrees come as rounded radians, so the nadir may exceed pi by a bit.
+  constexpr double kMost = std::numbers::pi * (1 + 1e-15),
+                   kAny = std::numeric_limits<double>::max();
+  const bool ray = query.kind != QueryKind::Irradiance;
+  const struct {
+    const char* name;
+    double value, least, most;
+  } fields[] = {{"altitude_m", query.altitude_m, 0.0, kAny},
+                {"sunZenith", query.sunZenith, 0.0, kMost},
+                {"zenith", ray ? query.zenith : 0.0, 0.0, kMost},
+                {"azimuth", ray ? query.azimuth : 0.0, -kAny, kAny},
+                {"distance_m", ray ? query.distance_m : 0.0, 0.0, kAny}};
+  for (const auto& field : fields) {
+    if (field.value >= field.least && field.value <= field.most) continue;
+    model::Sentence why;
+    why << "ProbeQuery::" << field.name << " is " << field.value << ", but it must be ";
+    if (field.most == kAny) {
+      why << (field.least == 0.0 ? "at least 0 and finite." : "finite.");
+    } else {
+      why << "from 0 to pi.";
+    }
+    return model::report(sink, Status::InvalidArgument, why);
+  }
+  return Status::Ok;
 }
 
-bool isValid(const ProbeQuery& query) {
-  const bool common =
-      std::isfinite(query.altitude_m) && query.altitude_m >= 0.0 && isZenithAngle(query.sunZenith);
-  return common &&
-         (query.kind == QueryKind::Irradiance || (isZenithAngle(query.zenith) && std::isfinite(query.azimuth) &&
-                               std::isfinite(query.distance_m) && query.distance_m >= 0.0));
+Status outOfMemory(const DiagnosticSink& sink, const char* function) {
+  return model::report(sink, Status::OutOfHostMemory,
+                       model::Sentence() << function << " found too little host memory.");
 }
 
 ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, double tolerance,
@@ -290,16 +311,17 @@ ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, 
 inline namespace v1 {
 
 Status referenceSingleScattering(const Parameters& parameters, const ProbeQuery& query,
-                                 ReferenceAnswer* out) {
-  if (out == nullptr || !reference::isValid(query) ||
-      validate(parameters, nullptr, 0) != Status::Ok) {
-    return Status::InvalidArgument;
-  }
+                                 ReferenceAnswer* out, const DiagnosticSink& sink) {
+  constexpr const char* kName = "referenceSingleScattering";
+  if (out == nullptr) return model::reportNull(sink, kName, "the answer");
+  Status status = reference::checkQuery(query, sink);
+  if (status == Status::Ok) status = validate(parameters, sink);
+  if (status != Status::Ok) return status;
   try {
     *out = reference::singleScattering(makeMediumF64(parameters), query,
                                        reference::kRelativeTolerance);
   } catch (const std::bad_alloc&) {
-    return Status::OutOfHostMemory;
+    return reference::outOfMemory(sink, kName);
   }
   return Status::Ok;
 }

@@ -12,9 +12,11 @@ namespace alpenglow::reference {
 /// What referenceSingleScattering() returns to its users.
 inline constexpr double kRelativeTolerance = 1e-9;
 
-/// Whether a probe file may hold this query: finite numbers, no negative altitude, zenith angles
-/// from 0 to 180 degrees.
-bool isValid(const ProbeQuery& query);
+/// Ok where a probe file may hold this query: finite numbers, no negative altitude, zenith angles
+/// from 0 to 180 degrees. Else InvalidArgument with a sentence.
+Status checkQuery(const ProbeQuery& query, const DiagnosticSink& sink);
+/// OutOfHostMemory with a sentence.
+Status outOfMemory(const DiagnosticSink& sink, const char* function);
 
 /// Single scattering for a valid query, each value to about `tolerance` times itself. `shadow`:
 /// where along the ray, in metres from the observer, something hides the sun besides the planet:

@@ -187,10 +187,10 @@ void writeAdjacency(const MeshView& mesh, const std::vector<uint32_t>& first,
 }  // namespace
 
 Status buildAdjacency(const MeshView& mesh, uint32_t* adjacency, AdjacencyReport* report,
-                      DiagnosticFn diagnostic, void* user) {
+                      const DiagnosticSink& sink) {
   Sentence why;
   if (!checkCounts(mesh, adjacency, &why) || !checkValues(mesh, &why)) {
-    return model::report(diagnostic, user, Status::InvalidArgument, why);
+    return model::report(sink, Status::InvalidArgument, why);
   }
   try {
     AdjacencyReport found;
@@ -201,7 +201,7 @@ Status buildAdjacency(const MeshView& mesh, uint32_t* adjacency, AdjacencyReport
     if (report != nullptr) *report = found;
   } catch (const std::bad_alloc&) {  // No exception may reach the host.
     why << "There is no host memory for the neighbours of " << mesh.indexCount / 3 << " triangles.";
-    return model::report(diagnostic, user, Status::OutOfHostMemory, why);
+    return model::report(sink, Status::OutOfHostMemory, why);
   }
   return Status::Ok;
 }

@@ -52,23 +52,23 @@ Status Shafts::create(bake::Resources& resources, const ShaftsDesc& desc, Shafts
     return resources.device().fail(Status::OutOfHostMemory, VK_SUCCESS,
                                    "Light shafts found no host memory.");
   }
-  ++resources.liveViews;
+  ++resources.live().views;
   const Status status = shafts->make();
   if (status != Status::Ok) {
-    destroy(shafts, FrameInfo{});  // Nothing was recorded with it: frame 0 has always completed.
+    destroy(shafts, 0);  // Nothing was recorded with it: frame 0 has always completed.
     return status;
   }
   *out = shafts;
   return Status::Ok;
 }
 
-void Shafts::destroy(Shafts* shafts, const FrameInfo& frame) {
+void Shafts::destroy(Shafts* shafts, uint64_t frame) {
   if (shafts == nullptr) return;
-  --shafts->resources_.liveViews;
+  --shafts->resources_.live().views;
   engine::Device& device = shafts->device_;
   engine::DeletionQueue& deletions = device.deletions();
   const auto defer = [&](VkObjectType type, auto handle) {
-    deletions.defer(frame.submitting, type, engine::handleNumber(handle));
+    deletions.defer(frame, type, engine::handleNumber(handle));
   };
   defer(VK_OBJECT_TYPE_PIPELINE, shafts->pipeline_);
   defer(VK_OBJECT_TYPE_PIPELINE, shafts->volumePipeline_);
@@ -79,13 +79,13 @@ void Shafts::destroy(Shafts* shafts, const FrameInfo& frame) {
   defer(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, shafts->setLayout_);
   defer(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, shafts->airLayout_);
   for (engine::Image& image : shafts->targets_)
-    engine::deferImage(device, frame.submitting, &image);
-  engine::deferBuffer(device, frame.submitting, &shafts->frame_);
-  engine::deferBuffer(device, frame.submitting, &shafts->blocks_);
-  engine::deferBlock(device, frame.submitting, &shafts->memory_);
+    engine::deferImage(device, frame, &image);
+  engine::deferBuffer(device, frame, &shafts->frame_);
+  engine::deferBuffer(device, frame, &shafts->blocks_);
+  engine::deferBlock(device, frame, &shafts->memory_);
   shafts->map_.destroy(frame);
   delete shafts;
-  deletions.collect(frame.completed);
+  deletions.collect(device.completed());
 }
 
 Status Shafts::make() {

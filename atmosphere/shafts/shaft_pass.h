@@ -24,13 +24,12 @@ inline namespace v1 {
 struct Shafts {
  public:
   static Status create(bake::Resources& resources, const ShaftsDesc& desc, Shafts** out);
-  static void destroy(Shafts* shafts, const FrameInfo& frame);
+  static void destroy(Shafts* shafts, uint64_t frame);
 
   Status recordSunMap(VkCommandBuffer commands, const double sun[3], const Casters& casters);
   /// The draw has been checked. `air`: the set of an air volume that serves the draw, or null.
   Status record(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw,
                 const Casters& casters, VkDescriptorSet air);
-  void collect(const FrameInfo& frame) { device_.deletions().collect(frame.completed); }
 
   const ShaftsDesc& desc() const { return desc_; }
   bake::Resources& resources() const { return resources_; }

@@ -62,12 +62,12 @@ Status SunMap::makePipeline(const ShaftsDesc& desc) {
   return engine::createGraphicsPipeline(device_, draw, &pipeline_);
 }
 
-void SunMap::destroy(const FrameInfo& frame) {
+void SunMap::destroy(uint64_t frame) {
   engine::DeletionQueue& deletions = device_.deletions();
-  deletions.defer(frame.submitting, VK_OBJECT_TYPE_PIPELINE, engine::handleNumber(pipeline_));
-  deletions.defer(frame.submitting, VK_OBJECT_TYPE_PIPELINE_LAYOUT, engine::handleNumber(layout_));
-  engine::deferImage(device_, frame.submitting, &depth_);
-  engine::deferBlock(device_, frame.submitting, &memory_);
+  deletions.defer(frame, VK_OBJECT_TYPE_PIPELINE, engine::handleNumber(pipeline_));
+  deletions.defer(frame, VK_OBJECT_TYPE_PIPELINE_LAYOUT, engine::handleNumber(layout_));
+  engine::deferImage(device_, frame, &depth_);
+  engine::deferBlock(device_, frame, &memory_);
 }
 
 Status SunMap::record(VkCommandBuffer commands, const double sun[3], const Casters& casters) {

@@ -15,7 +15,7 @@ class SunMap {
   explicit SunMap(bake::Resources& resources)
       : resources_(resources), device_(resources.device()) {}
   Status make(const ShaftsDesc& desc);
-  void destroy(const FrameInfo& frame);
+  void destroy(uint64_t frame);
 
   /// Leaves the image readable by vertex and fragment shaders.
   Status record(VkCommandBuffer commands, const double sun[3], const Casters& casters);

@@ -316,10 +316,11 @@ void writeSkirt(const Surface& surface, const TerrainDesc& desc, TerrainVertex* 
 
 }  // namespace
 
-Status terrainSize(const TerrainDesc& desc, TerrainSize* out, DiagnosticFn diagnostic, void* user) {
+Status terrainSize(const TerrainDesc& desc, TerrainSize* out, const DiagnosticSink& sink) {
+  if (out == nullptr) return model::reportNull(sink, "terrainSize", "the size");
   Sentence why;
   if (!checkDesc(desc, &why)) {
-    return model::report(diagnostic, user, Status::InvalidArgument, why);
+    return model::report(sink, Status::InvalidArgument, why);
   }
   const HeightField& field = desc.field;
   out->vertexCount = field.width * field.height + 2 * Border(field).count() + 1;
@@ -328,12 +329,12 @@ Status terrainSize(const TerrainDesc& desc, TerrainSize* out, DiagnosticFn diagn
 }
 
 Status buildTerrain(const TerrainDesc& desc, TerrainVertex* vertices, uint32_t* indices,
-                    TerrainPlace* place, DiagnosticFn diagnostic, void* user) {
+                    TerrainPlace* place, const DiagnosticSink& sink) {
   Sentence why;
   double maxAltitude_m = 0.0;
   if (!checkDesc(desc, &why) || !checkArrays(desc, vertices, indices, &why) ||
       !checkHeights(desc, &maxAltitude_m, &why)) {
-    return model::report(diagnostic, user, Status::InvalidArgument, why);
+    return model::report(sink, Status::InvalidArgument, why);
   }
   const HeightField& field = desc.field;
   const Surface surface(desc);

@@ -1,4 +1,4 @@
-// The set by which fragment shaders read an air volume: alpenglow/air_volume.glsl.
+// The set by which fragment shaders read an air volume: common/air_volume.glsl.
 #pragma once
 
 #include "atmosphere/sky/air_volume.h"

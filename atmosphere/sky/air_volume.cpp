@@ -63,28 +63,28 @@ Status AirVolume::create(bake::Resources& resources, EffectFlags without, AirVol
   }
   const Status status = volume->make();
   if (status != Status::Ok) {
-    destroy(volume, FrameInfo{});  // Nothing was recorded with it: frame 0 has always completed.
+    destroy(volume, 0);  // Nothing was recorded with it: frame 0 has always completed.
     return status;
   }
   *out = volume;
   return Status::Ok;
 }
 
-void AirVolume::destroy(AirVolume* volume, const FrameInfo& frame) {
+void AirVolume::destroy(AirVolume* volume, uint64_t frame) {
   if (volume == nullptr) return;
   engine::Device& device = volume->device_;
   engine::DeletionQueue& deletions = device.deletions();
   const auto defer = [&](VkObjectType type, auto handle) {
-    deletions.defer(frame.submitting, type, engine::handleNumber(handle));
+    deletions.defer(frame, type, engine::handleNumber(handle));
   };
   defer(VK_OBJECT_TYPE_PIPELINE, volume->pipeline_);
   defer(VK_OBJECT_TYPE_PIPELINE_LAYOUT, volume->layout_);
   defer(VK_OBJECT_TYPE_DESCRIPTOR_POOL, volume->pool_);
   defer(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, volume->setLayout_);
-  for (engine::Image& image : volume->images_) engine::deferImage(device, frame.submitting, &image);
-  engine::deferBlock(device, frame.submitting, &volume->block_);
+  for (engine::Image& image : volume->images_) engine::deferImage(device, frame, &image);
+  engine::deferBlock(device, frame, &volume->block_);
   delete volume;
-  deletions.collect(frame.completed);
+  deletions.collect(device.completed());
 }
 
 Status AirVolume::make() {

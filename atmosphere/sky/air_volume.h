@@ -10,7 +10,7 @@ namespace alpenglow::sky {
 /// How a camera's rays lie in an air volume.
 physics_f64::AirView airView(const Parameters& parameters, double altitude);
 
-/// What shaders/glsl/alpenglow/air_volume.glsl wants to know of a draw.
+/// What shaders/glsl/common/air_volume.glsl wants to know of a draw.
 struct AirLookup {
   physics_f64::AirView view;
   double up[3];          ///< The camera's vertical.
@@ -24,7 +24,7 @@ class AirVolume {
   static constexpr uint32_t kImages = 3;
 
   static Status create(bake::Resources& resources, EffectFlags without, AirVolume** out);
-  static void destroy(AirVolume* volume, const FrameInfo& frame);
+  static void destroy(AirVolume* volume, uint64_t frame);
   /// Of each of its images, for a view without these effects.
   static VkExtent3D extentFor(EffectFlags without);
 

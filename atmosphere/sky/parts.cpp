@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "atmosphere/sky/sky_slice.h"
-
 namespace alpenglow::sky {
 namespace {
 

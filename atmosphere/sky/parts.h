@@ -7,6 +7,8 @@
 #include <array>
 #include <iterator>
 
+#include "atmosphere/sky/camera_math.h"
+
 namespace alpenglow::sky {
 
 struct Visible {
@@ -51,9 +53,6 @@ struct Parts {
 };
 Parts cut(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw);
 
-inline double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 /// To the right of where a camera looks.
 std::array<double, 3> cameraRight(const Camera& camera);
 

@@ -170,7 +170,7 @@ Status ProbePass::prepareCall(const Tables& tables, const ProbeQuery* queries, u
   return writer.flush(device_);
 }
 
-Status ProbePass::record(const Tables& tables, VkCommandBuffer commands, const FrameInfo& frame,
+Status ProbePass::record(const Tables& tables, VkCommandBuffer commands,
                          const ProbeQuery* queries, uint32_t count, VkBuffer answers) {
   const uint64_t most = device_.limits().maxStorageBufferRange / kProbeAnswerBytes;
   if (queries == nullptr || count == 0 || count > most || answers == VK_NULL_HANDLE) {
@@ -212,11 +212,12 @@ Status ProbePass::record(const Tables& tables, VkCommandBuffer commands, const F
                     VK_ACCESS_2_HOST_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT);
     status = barriers.record(device_, commands);
   }
-  device_.deletions().defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
+  const uint64_t frame = device_.submitting();
+  device_.deletions().defer(frame, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
                             engine::handleNumber(call.pool));
-  engine::deferBuffer(device_, frame.submitting, &call.queries);
-  engine::deferBlock(device_, frame.submitting, &call.block);
-  device_.deletions().collect(frame.completed);
+  engine::deferBuffer(device_, frame, &call.queries);
+  engine::deferBlock(device_, frame, &call.block);
+  device_.deletions().collect(device_.completed());
   return status;
 }
 

@@ -28,7 +28,7 @@ class ProbePass {
  public:
   static Status create(bake::Resources& resources, ProbePass** out);
   static void destroy(ProbePass* pass);
-  Status record(const Tables& tables, VkCommandBuffer commands, const FrameInfo& frame,
+  Status record(const Tables& tables, VkCommandBuffer commands,
                 const ProbeQuery* queries, uint32_t count, VkBuffer answers);
 
  private:

@@ -20,7 +20,7 @@ Status View::create(bake::Resources& resources, const ViewDesc& desc, const sky:
   if (view == nullptr) {
     return device.fail(Status::OutOfHostMemory, VK_SUCCESS, "A view found no host memory.");
   }
-  ++resources.liveViews;
+  ++resources.live().views;
   Status status = view->makeSlice();
   if (status == Status::Ok) status = view->makeLayout();
   if (status == Status::Ok && !desc.alwaysSliced)
@@ -29,36 +29,37 @@ Status View::create(bake::Resources& resources, const ViewDesc& desc, const sky:
     status = view->makePipelines(true, view->slicePipelines_);
   if (status == Status::Ok && view->hasAir()) status = view->makeAirPipelines();
   if (status != Status::Ok) {
-    destroy(view, FrameInfo{});  // Nothing was recorded with it: frame 0 has always completed.
+    destroy(view, 0);  // Nothing was recorded with it: frame 0 has always completed.
     return status;
   }
   *out = view;
   return Status::Ok;
 }
 
-void View::destroy(View* view, const FrameInfo& frame) {
+void View::destroy(View* view, uint64_t frame) {
   if (view == nullptr) return;
-  --view->resources_.liveViews;
-  engine::DeletionQueue& deletions = view->device_.deletions();
+  --view->resources_.live().views;
+  engine::Device& device = view->device_;
+  engine::DeletionQueue& deletions = device.deletions();
   for (const auto* pipelines : {&view->pipelines_, &view->slicePipelines_})
     for (VkPipeline pipeline : *pipelines)
-      deletions.defer(frame.submitting, VK_OBJECT_TYPE_PIPELINE, engine::handleNumber(pipeline));
+      deletions.defer(frame, VK_OBJECT_TYPE_PIPELINE, engine::handleNumber(pipeline));
   for (VkPipeline pipeline : {view->airPipeline_, view->airVolumePipeline_})
-    deletions.defer(frame.submitting, VK_OBJECT_TYPE_PIPELINE, engine::handleNumber(pipeline));
-  deletions.defer(frame.submitting, VK_OBJECT_TYPE_PIPELINE_LAYOUT,
+    deletions.defer(frame, VK_OBJECT_TYPE_PIPELINE, engine::handleNumber(pipeline));
+  deletions.defer(frame, VK_OBJECT_TYPE_PIPELINE_LAYOUT,
                   engine::handleNumber(view->layout_));
-  deletions.defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
+  deletions.defer(frame, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
                   engine::handleNumber(view->pool_));
-  deletions.defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT,
+  deletions.defer(frame, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT,
                   engine::handleNumber(view->setLayout_));
-  deletions.defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
+  deletions.defer(frame, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
                   engine::handleNumber(view->airPool_));
-  deletions.defer(frame.submitting, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT,
+  deletions.defer(frame, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT,
                   engine::handleNumber(view->airLayout_));
   sky::AirVolume::destroy(view->volume_, frame);
   sky::SkySlice::destroy(view->slice_, frame);
   delete view;
-  deletions.collect(frame.completed);
+  deletions.collect(device.completed());
 }
 
 Status View::makeSlice() {

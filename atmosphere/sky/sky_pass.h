@@ -71,7 +71,7 @@ struct View {
  public:
   static Status create(bake::Resources& resources, const ViewDesc& desc,
                        const sky::ShaftSet& shafts, View** out);
-  static void destroy(View* view, const FrameInfo& frame);
+  static void destroy(View* view, uint64_t frame);
   Status recordSlice(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw);
   // The draw of the next two has been checked (checkRecord).
   Status recordSky(VkCommandBuffer commands, const Tables& tables, const SkyDraw& draw);
@@ -81,7 +81,6 @@ struct View {
   Status checkRecord(const Tables& tables, const SkyDraw& draw, const char* call) const;
   const ViewDesc& desc() const { return desc_; }
   bake::Resources& resources() const { return resources_; }
-  void collect(const FrameInfo& frame) { device_.deletions().collect(frame.completed); }
 
  private:
   View(bake::Resources& resources, const ViewDesc& desc, const sky::ShaftSet& shafts)

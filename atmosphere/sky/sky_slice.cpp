@@ -66,28 +66,28 @@ Status SkySlice::create(bake::Resources& resources, const TableDesc& tables, Eff
   }
   const Status status = slice->make();
   if (status != Status::Ok) {
-    destroy(slice, FrameInfo{});  // Nothing was recorded with it: frame 0 has always completed.
+    destroy(slice, 0);  // Nothing was recorded with it: frame 0 has always completed.
     return status;
   }
   *out = slice;
   return Status::Ok;
 }
 
-void SkySlice::destroy(SkySlice* slice, const FrameInfo& frame) {
+void SkySlice::destroy(SkySlice* slice, uint64_t frame) {
   if (slice == nullptr) return;
   engine::Device& device = slice->device_;
   engine::DeletionQueue& deletions = device.deletions();
   const auto defer = [&](VkObjectType type, auto handle) {
-    deletions.defer(frame.submitting, type, engine::handleNumber(handle));
+    deletions.defer(frame, type, engine::handleNumber(handle));
   };
   defer(VK_OBJECT_TYPE_PIPELINE, slice->pipeline_);
   defer(VK_OBJECT_TYPE_PIPELINE_LAYOUT, slice->layout_);
   defer(VK_OBJECT_TYPE_DESCRIPTOR_POOL, slice->pool_);
   defer(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, slice->setLayout_);
-  for (engine::Image& image : slice->images_) engine::deferImage(device, frame.submitting, &image);
-  engine::deferBlock(device, frame.submitting, &slice->block_);
+  for (engine::Image& image : slice->images_) engine::deferImage(device, frame, &image);
+  engine::deferBlock(device, frame, &slice->block_);
   delete slice;
-  deletions.collect(frame.completed);
+  deletions.collect(device.completed());
 }
 
 Status SkySlice::make() {

@@ -5,21 +5,9 @@
 #include <alpenglow/view.h>
 
 #include "atmosphere/bake/table_set.h"
+#include "atmosphere/sky/camera_math.h"
 
 namespace alpenglow::sky {
-
-/// Distance from the planet's centre.
-double cameraRadius(const Camera& camera);
-/// The one subtraction that loses digits, taken in double (shaders/glsl/physics/geometry.glsl); 0
-/// below the ground.
-double cameraAltitude(const Parameters& parameters, const Camera& camera);
-
-/// How a camera's rays lie in a slice.
-physics_f64::SliceView sliceView(const Parameters& parameters, double altitude);
-
-/// Horizontal unit vector towards the sun at the camera; 0 for a sun in the zenith, towards which
-/// no azimuth is the sun's, and any will do.
-void sunAzimuth(const SkyDraw& draw, double out[3]);
 
 /// What something was recorded for last: tables, and a camera's position and sun.
 class RecordedFor {
@@ -42,7 +30,7 @@ class SkySlice {
   /// Texels of an image of it, and how many there are.
   static VkExtent3D extentFor(const TableDesc& desc, EffectFlags without);
   static uint32_t countFor(const TableDesc& desc, EffectFlags without);
-  static void destroy(SkySlice* slice, const FrameInfo& frame);
+  static void destroy(SkySlice* slice, uint64_t frame);
 
   /// Moments: any tables, whatever their quality.
   bool fits(const Tables& tables) const {

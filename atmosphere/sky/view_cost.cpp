@@ -11,9 +11,12 @@ namespace {
 
 constexpr uint64_t kTexelBytes = 16;
 
-PlanTable table(const char* name, const VkExtent3D& extent) {
-  const uint64_t texels = uint64_t{extent.width} * extent.height * extent.depth;
-  return {name, extent.width, extent.height, extent.depth, texels * kTexelBytes};
+ImageInfo imageOf(const char* name, const VkExtent3D& extent) {
+  ImageInfo info;
+  info.name = name;
+  info.extent = extent;
+  info.bytes = uint64_t{extent.width} * extent.height * extent.depth * kTexelBytes;
+  return info;
 }
 
 bool hasSlice(const ViewDesc& view, bool sliced) {
@@ -26,25 +29,25 @@ bool hasVolume(const TableDesc& tables, const ViewDesc& view, bool sliced, bool 
 
 }  // namespace
 
-uint32_t viewTables(const TableDesc& tables, const ViewDesc& view, bool sliced, bool air,
-                    PlanTable out[kMaxViewTables]) {
+uint32_t viewImages(const TableDesc& tables, const ViewDesc& view, bool sliced, bool air,
+                    ImageInfo out[kMaxViewImages]) {
   uint32_t count = 0;
   if (hasSlice(view, sliced)) {
     constexpr const char* kNames[] = {"sky slice", "sky slice Mie"};
     for (uint32_t i = 0; i < SkySlice::countFor(tables, view.without); ++i)
-      out[count++] = table(kNames[i], SkySlice::extentFor(tables, view.without));
+      out[count++] = imageOf(kNames[i], SkySlice::extentFor(tables, view.without));
   }
   if (hasVolume(tables, view, sliced, air)) {
     for (uint32_t i = 0; i < AirVolume::kImages; ++i)
-      out[count++] = table("air volume", AirVolume::extentFor(view.without));
+      out[count++] = imageOf("air volume", AirVolume::extentFor(view.without));
   }
   return count;
 }
 
 PlanCost viewCost(const TableDesc& tables, const ViewDesc& view, bool sliced, bool air) {
   PlanCost cost;
-  PlanTable images[kMaxViewTables];
-  cost.images = viewTables(tables, view, sliced, air, images);
+  ImageInfo images[kMaxViewImages];
+  cost.images = viewImages(tables, view, sliced, air, images);
   for (uint32_t i = 0; i < cost.images; ++i) {
     cost.bytes += images[i].bytes;
     cost.texels += images[i].bytes / kTexelBytes;

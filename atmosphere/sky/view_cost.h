@@ -11,9 +11,9 @@ namespace alpenglow::sky {
 /// Shafts have costs of their own.
 PlanCost viewCost(const TableDesc& tables, const ViewDesc& view, bool sliced, bool air);
 
-/// The images, at most kMaxViewTables of them; returns how many.
-inline constexpr uint32_t kMaxViewTables = 5;
-uint32_t viewTables(const TableDesc& tables, const ViewDesc& view, bool sliced, bool air,
-                    PlanTable out[kMaxViewTables]);
+/// The images, at most kMaxViewImages of them; returns how many.
+inline constexpr uint32_t kMaxViewImages = 5;
+uint32_t viewImages(const TableDesc& tables, const ViewDesc& view, bool sliced, bool air,
+                    ImageInfo out[kMaxViewImages]);
 
 }  // namespace alpenglow::sky

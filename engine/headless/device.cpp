@@ -36,8 +36,9 @@ bool Device::Impl::createDevice(const DeviceOptions& options, std::string* error
   queueInfo.pQueuePriorities = &priority;
   auto features13 = structure<VkPhysicalDeviceVulkan13Features>(
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
-  features13.synchronization2 = selection.enabled.synchronization2 ? VK_TRUE : VK_FALSE;
-  features13.dynamicRendering = selection.enabled.dynamicRendering ? VK_TRUE : VK_FALSE;
+  const DeviceFeatureFlags newer = selection.enabled.deviceFeatures;
+  features13.synchronization2 = (newer & kFeatureSynchronization2) != 0 ? VK_TRUE : VK_FALSE;
+  features13.dynamicRendering = (newer & kFeatureDynamicRendering) != 0 ? VK_TRUE : VK_FALSE;
   auto features =
       structure<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
   if (selection.enabled.apiVersion >= VK_API_VERSION_1_3) features.pNext = &features13;
@@ -139,7 +140,9 @@ ContextDesc Device::contextDesc() const {
   return desc;
 }
 
-FrameInfo Device::frame() const { return {impl_->completedFrame + 1, impl_->completedFrame}; }
+uint64_t Device::frame() const { return impl_->completedFrame + 1; }
+
+uint64_t Device::skipFrame() { return ++impl_->completedFrame + 1; }
 
 PFN_vkVoidFunction Device::function(const char* name) const {
   return impl_->vk().GetDeviceProcAddr(impl_->device, name);

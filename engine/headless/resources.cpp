@@ -141,7 +141,7 @@ HostBuffer Device::createHostBuffer(VkDeviceSize size, VkBufferUsageFlags usage,
 }
 
 Image Device::createImage(VkExtent2D extent, VkFormat format, VkImageUsageFlags usage,
-                          uint32_t levels, std::string* error) {
+                          uint32_t levels, std::string* error, VkSampleCountFlagBits samples) {
   const Impl& impl = *impl_;
   const Functions& vk = impl.vk();
   const uint32_t longest = extent.width > extent.height ? extent.width : extent.height;
@@ -163,7 +163,7 @@ Image Device::createImage(VkExtent2D extent, VkFormat format, VkImageUsageFlags 
   info.extent = {extent.width, extent.height, 1};
   info.mipLevels = levels;
   info.arrayLayers = 1;
-  info.samples = VK_SAMPLE_COUNT_1_BIT;
+  info.samples = samples;
   info.tiling = VK_IMAGE_TILING_OPTIMAL;
   info.usage = usage;
   VkResult result = vk.CreateImage(impl.device, &info, nullptr, &image.image_);

@@ -60,8 +60,8 @@ Status defaultRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInst
                            std::string* missing) {
   engine::FeatureSet needed;
   out->apiVersion = needed.apiVersion = VK_API_VERSION_1_3;
-  out->synchronization2 = needed.synchronization2 = true;
-  out->dynamicRendering = needed.dynamicRendering = true;
+  needed.synchronization2 = needed.dynamicRendering = true;
+  out->deviceFeatures = kFeatureSynchronization2 | kFeatureDynamicRendering;
   out->features = needed.core;
   return engine::checkPhysicalDevice(
       getInstanceProcAddr, instance, physicalDevice, needed,
@@ -120,8 +120,8 @@ void addUsualFeatures(Instance& instance, VkPhysicalDevice physicalDevice, Requi
       structure<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
   features.pNext = &features13;
   instance.vk().GetPhysicalDeviceFeatures2(physicalDevice, &features);
-  enabled->synchronization2 |= features13.synchronization2 != VK_FALSE;
-  enabled->dynamicRendering |= features13.dynamicRendering != VK_FALSE;
+  if (features13.synchronization2 != VK_FALSE) enabled->deviceFeatures |= kFeatureSynchronization2;
+  if (features13.dynamicRendering != VK_FALSE) enabled->deviceFeatures |= kFeatureDynamicRendering;
 }
 
 bool suits(Instance& instance, const DeviceOptions& options, const RequirementsFn& ask,

@@ -67,7 +67,7 @@ Measured draw(io::Scene scene, const Method& method, const std::string& device, 
   std::optional<ShaftsDesc> shafts = describeShafts(choice, session);
   if (shafts) shafts->without = plan.viewWithout;
   TableRequest request;
-  request.desc = plan.tableDesc;
+  request.desc = plan.tables;
   const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
   Scenery scenery(&session, scene, files, ready, shafts, plan);
   Measured measured;

@@ -39,7 +39,7 @@ std::string savedText(const PlanCost& saves) {
 void printEffects(const Plan& plan) {
   std::cout << "Effects\n";
   for (uint32_t i = 0; i < kEffectCount; ++i) {
-    const EffectChoice& choice = plan.effects[i];
+    const PlanChoice& choice = plan.choices[i];
     char head[64];
     std::snprintf(head, sizeof head, "  %-20s %-4s", effectName(static_cast<Effect>(i)),
                   choice.on ? "on" : "off");
@@ -49,7 +49,7 @@ void printEffects(const Plan& plan) {
 
 void printChoices(const Plan& plan) {
   std::cout << "\nChoices\n";
-  for (uint32_t i = 0; i < plan.choiceCount; ++i) {
+  for (uint32_t i = kEffectCount; i < plan.choiceCount; ++i) {
     const PlanChoice& choice = plan.choices[i];
     char head[160];
     std::snprintf(head, sizeof head, "  %-11s %s: ", choice.name, choice.value);
@@ -59,11 +59,12 @@ void printChoices(const Plan& plan) {
 
 void printTables(const Plan& plan) {
   std::cout << "\nImages that stay\n";
-  for (uint32_t i = 0; i < plan.tableCount; ++i) {
-    const PlanTable& table = plan.tables[i];
+  for (uint32_t i = 0; i < plan.imageCount; ++i) {
+    const ImageInfo& table = plan.images[i];
     char line[96];
-    std::snprintf(line, sizeof line, "  %-15s %4u x %4u x %3u  %s\n", table.name, table.width,
-                  table.height, table.depth, bytesText(table.bytes).c_str());
+    std::snprintf(line, sizeof line, "  %-15s %4u x %4u x %3u  %s\n", table.name,
+                  table.extent.width, table.extent.height, table.extent.depth,
+                  bytesText(table.bytes).c_str());
     std::cout << line;
   }
 }
@@ -96,7 +97,7 @@ Json planJson(const Plan& plan) {
   Json root;
   root["effects"] = Json::array();
   for (uint32_t i = 0; i < kEffectCount; ++i) {
-    const EffectChoice& choice = plan.effects[i];
+    const PlanChoice& choice = plan.choices[i];
     root["effects"].push_back({{"name", effectName(static_cast<Effect>(i))},
                                {"on", choice.on},
                                {"forced", choice.forced},
@@ -104,7 +105,7 @@ Json planJson(const Plan& plan) {
                                {"saves", costJson(choice.saves)}});
   }
   root["choices"] = Json::array();
-  for (uint32_t i = 0; i < plan.choiceCount; ++i) {
+  for (uint32_t i = kEffectCount; i < plan.choiceCount; ++i) {
     const PlanChoice& choice = plan.choices[i];
     root["choices"].push_back({{"name", choice.name},
                                {"value", choice.value},
@@ -112,11 +113,12 @@ Json planJson(const Plan& plan) {
                                {"saves", costJson(choice.saves)}});
   }
   root["tables"] = Json::array();
-  for (uint32_t i = 0; i < plan.tableCount; ++i) {
-    const PlanTable& table = plan.tables[i];
-    root["tables"].push_back({{"name", table.name},
-                              {"size", {table.width, table.height, table.depth}},
-                              {"bytes", table.bytes}});
+  for (uint32_t i = 0; i < plan.imageCount; ++i) {
+    const ImageInfo& table = plan.images[i];
+    root["tables"].push_back(
+        {{"name", table.name},
+         {"size", {table.extent.width, table.extent.height, table.extent.depth}},
+         {"bytes", table.bytes}});
   }
   root["expected_error"] = plan.expectedError;
   root["error_met"] = plan.errorMet;

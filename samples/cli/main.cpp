@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "commands.h"
+#include "common/gpu.h"
 #include "failure.h"
-#include "terrain/gpu.h"
 
 namespace alpenglow::cli {
 namespace {

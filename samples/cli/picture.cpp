@@ -9,7 +9,7 @@ Painter::Painter(Session* session, const io::Scene& scene, const io::AlbedoMap* 
   ViewDesc desc;
   desc.colorFormat = kPictureFormat;
   desc.projection = samples::projectionOf(scene.camera);
-  describeView(plan, &desc);
+  samples::describeView(plan, &desc);
   // Where a slice can't be recorded, recordSky reads the tables.
   desc.skySlice = tables.tables.get();
   if (albedo != nullptr) {
@@ -34,10 +34,9 @@ void Painter::drawPlain(const Tables* tables, const SkyDraw& draw, const headles
     gpu_.render(commands, target, draw.viewport, load, nullptr, record);
   };
   session_->run([&](VkCommandBuffer commands) {
-    const FrameInfo frame = session_->device().frame();
-    session_->check(recordSkySlice(view_.get(), commands, frame, tables, draw));
+    session_->check(recordSkySlice(view_.get(), commands, tables, draw));
     render(commands, VK_ATTACHMENT_LOAD_OP_CLEAR,
-           [&] { session_->check(recordSky(view_.get(), commands, frame, tables, draw)); });
+           [&] { session_->check(recordSky(view_.get(), commands, tables, draw)); });
     return "sky";
   });
   if (!stars) return;

@@ -16,7 +16,7 @@ namespace alpenglow::cli {
 
 struct ViewDeleter {
   Session* session = nullptr;
-  void operator()(View* view) const { destroyView(view, session->device().frame()); }
+  void operator()(View* view) const { destroyView(view); }
 };
 using ViewPointer = std::unique_ptr<View, ViewDeleter>;
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <iomanip>
 #include <iostream>
+#include <span>
 
 #include "commands.h"
 #include "failure.h"
@@ -12,13 +13,14 @@ namespace alpenglow::cli {
 namespace {
 
 void listPresets() {
+  uint32_t count = 0;
+  const Preset* const first = presets(&count);
+  const std::span all(first, count);
   size_t widest = 0;
-  for (uint32_t i = 0; i < presetCount(); ++i) {
-    widest = std::max(widest, std::strlen(presetName(i)));
-  }
-  for (uint32_t i = 0; i < presetCount(); ++i) {
-    std::cout << std::left << std::setw(static_cast<int>(widest) + 2) << presetName(i)
-              << presetDescription(i) << '\n';
+  for (const Preset& preset : all) widest = std::max(widest, std::strlen(preset.name));
+  for (const Preset& preset : all) {
+    std::cout << std::left << std::setw(static_cast<int>(widest) + 2) << preset.name
+              << preset.description << '\n';
   }
 }
 
@@ -30,7 +32,7 @@ void runPresets(const std::string& name) {
     return;
   }
   Parameters parameters;
-  if (findPreset(name.c_str(), &parameters) != Status::Ok) {
+  if (findPreset(name.c_str(), &parameters, {}) != Status::Ok) {
     throw Failure("There is no preset named '" + name + "'; 'alpenglow presets' lists them.");
   }
   std::cout << io::formatAtmosphere(parameters);

@@ -41,7 +41,8 @@ std::vector<ReferenceAnswer> integrate(const Parameters& parameters,
   dealOut(
       queries.size(),
       [&](size_t i) {
-        if (referenceSingleScattering(parameters, queries[i].query, &answers[i]) != Status::Ok) {
+        if (referenceSingleScattering(parameters, queries[i].query, &answers[i], {}) !=
+            Status::Ok) {
           failed = i;
         }
       },
@@ -73,7 +74,7 @@ std::vector<ReferenceAnswer> answerByReference(const Parameters& parameters,
                                                uint32_t orders, uint64_t samples) {
   if (orders == 1) return integrate(parameters, queries);
   Reference* made = nullptr;
-  const Status prepared = createReference(parameters, &made);
+  const Status prepared = createReference(parameters, &made, {});
   if (prepared != Status::Ok) refuse(prepared, "queries of this atmosphere");
   const std::unique_ptr<Reference, void (*)(Reference*)> reference(made, destroyReference);
 
@@ -89,7 +90,7 @@ std::vector<ReferenceAnswer> answerByReference(const Parameters& parameters,
     tracing.detail = queries[i].id;
     tracing.bar.update(tracing.done, tracing.detail);
     const Status status =
-        evaluateReference(reference.get(), queries[i].query, options, &answers[i]);
+        evaluateReference(reference.get(), queries[i].query, options, &answers[i], {});
     if (status != Status::Ok) refuse(status, "query '" + queries[i].id + "'");
   }
   return answers;

@@ -34,17 +34,18 @@ Plan planPicture(const RenderArguments& arguments, io::Scene scene, const ShaftC
                  TableRequest* request) {
   scene.shafts = shafts.method;  // Options beat the scene.
   if (request->file) {
-    Needs needs = samples::needsOf(scene);
+    PlanRequest asked = samples::requestOf(scene);
     for (uint32_t i = 0; i < kEffectCount; ++i) {
       const auto effect = static_cast<Effect>(i);
       if ((kTableEffects & effectBit(effect)) == 0) continue;
-      needs.effects[i] = hasEffect(request->desc.disabledEffects, effect) ? Force::On : Force::Off;
+      asked.effects[i] = hasEffect(request->desc.disabledEffects, effect) ? Force::On : Force::Off;
     }
-    return samples::planNeeds(scene, needs, request->desc);
+    asked.tables = request->desc;
+    return samples::planRequest(scene, asked);
   }
   const TableDesc base = describeBase(arguments.tables, scene);
   const Plan plan = samples::planScene(scene, base);
-  request->desc = plan.tableDesc;
+  request->desc = plan.tables;
   return plan;
 }
 
@@ -83,7 +84,7 @@ void runRender(const RenderArguments& arguments) {
   ShaftChoice shafts = chooseShafts(arguments, scene, request.desc.solver);
   const Plan plan = planPicture(arguments, scene, shafts, &request);
   if (!plan.shafts) shafts.method = io::SceneShafts::Off;
-  const bool disc = plan.effects[static_cast<uint32_t>(Effect::SunDisc)].on;
+  const bool disc = plan.choices[static_cast<uint32_t>(Effect::SunDisc)].on;
   if (!disc) scene.sun.discRadius = 0.0;
   const SceneryFiles files = readScenery(scene);
   checkOutputs(arguments.run);

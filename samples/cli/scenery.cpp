@@ -48,12 +48,12 @@ void Scenery::describe(ViewDesc* view) const {
 void Scenery::drawShafts(View* view, const Tables* tables, const SkyDraw& draw) {
   const Casters casters = landscape_.casters();
   session_->run([&](VkCommandBuffer commands) {
-    session_->check(recordSunMap(landscape_.shafts(), commands, session_->device().frame(),
+    session_->check(recordSunMap(landscape_.shafts(), commands,
                                  draw.sun.direction, casters));
     return "sun map";
   });
   session_->run([&](VkCommandBuffer commands) {
-    session_->check(recordShafts(landscape_.shafts(), view, commands, session_->device().frame(),
+    session_->check(recordShafts(landscape_.shafts(), view, commands,
                                  tables, draw, casters));
     return "shafts";
   });
@@ -76,7 +76,7 @@ void Scenery::draw(View* view, const Tables* tables, SkyDraw draw, const headles
   draw.depth = landscape_.depthRange(draw.camera);
   // An engine records all this into one command buffer; here each pass is run and timed alone.
   session_->run([&](VkCommandBuffer commands) {
-    session_->check(recordSkySlice(view, commands, session_->device().frame(), tables, draw));
+    session_->check(recordSkySlice(view, commands, tables, draw));
     return "sky slice";
   });
   const bool terrain = landscape_.hasTerrain();
@@ -91,11 +91,11 @@ void Scenery::draw(View* view, const Tables* tables, SkyDraw draw, const headles
              [&](VkCommandBuffer commands) { landscape_.recordTerrain(commands, tables, draw); });
     if (hasAir_)
       drawInto(target, draw, "air", false, [&](VkCommandBuffer commands) {
-        session_->check(recordAir(view, commands, session_->device().frame(), tables, draw));
+        session_->check(recordAir(view, commands, tables, draw));
       });
   }
   drawInto(target, draw, "sky", !terrain, [&](VkCommandBuffer commands) {
-    session_->check(recordSky(view, commands, session_->device().frame(), tables, draw));
+    session_->check(recordSky(view, commands, tables, draw));
   });
   if (stars) drawInto(target, draw, "stars", false, stars);
   if (landscape_.hasBalloons()) {

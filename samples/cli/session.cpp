@@ -30,8 +30,13 @@ Session::Session(const std::string& device, CapabilityFlags capabilities, Capabi
                              VkPhysicalDevice physicalDevice, Requirements* out,
                              std::string* missing) {
     const auto query = [&](CapabilityFlags flags, std::string* sentence) {
-      return queryRequirements(getProcAddr, instance, physicalDevice, flags, out, keepError,
-                               sentence);
+      ContextDesc desc;
+      desc.instance = instance;
+      desc.physicalDevice = physicalDevice;
+      desc.getInstanceProcAddr = getProcAddr;
+      desc.capabilities = flags;
+      desc.diagnostics = {keepError, sentence};
+      return queryRequirements(desc, out);
     };
     std::string& gap = gaps[physicalDevice];
     if (wishes != 0 && query(capabilities | wishes, &gap) == Status::Ok) return Status::Ok;
@@ -43,8 +48,7 @@ Session::Session(const std::string& device, CapabilityFlags capabilities, Capabi
   ContextDesc desc = device_->contextDesc();
   unfulfilled_ = gaps[device_->physicalDevice()];
   desc.capabilities = capabilities | (unfulfilled_.empty() ? wishes : CapabilityFlags{0});
-  desc.diagnostic = keepError;
-  desc.user = &lastError_;
+  desc.diagnostics = {keepError, &lastError_};
   check(createContext(desc, &context_));
   report_.device = device_->name();
 }
@@ -80,7 +84,7 @@ double Session::run(const std::function<std::string(VkCommandBuffer)>& record) {
   if (thrown) std::rethrow_exception(thrown);
   if (!good) throw Failure(error);
   book(pass, before, timing);
-  collect(context_, device_->frame().completed);
+  check(advanceFrame(context_, device_->frame(), device_->frame() - 1));
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
@@ -92,8 +96,7 @@ samples::Gpu Session::gpu() {
       return std::string(pass);
     });
   };
-  return {device_.get(), runPass, [this](Status status) { check(status); },
-          [this] { return device_->frame(); }};
+  return {device_.get(), runPass, [this](Status status) { check(status); }};
 }
 
 void Session::book(const std::string& pass, const ResourceReport& before,

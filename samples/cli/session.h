@@ -9,7 +9,7 @@
 #include <memory>
 #include <string>
 
-#include "terrain/gpu.h"
+#include "common/gpu.h"
 
 namespace alpenglow::cli {
 
@@ -69,7 +69,7 @@ class Session {
 /// Tables and views, destroyed before their session.
 struct TablesDeleter {
   Session* session = nullptr;
-  void operator()(Tables* tables) const { destroyTables(tables, session->device().frame()); }
+  void operator()(Tables* tables) const { destroyTables(tables); }
 };
 using TablesPointer = std::unique_ptr<Tables, TablesDeleter>;
 

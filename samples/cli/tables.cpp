@@ -98,7 +98,7 @@ TablesPointer uploadTables(Session* session, const Parameters& parameters, io::T
         session->hostBuffer(part.texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     std::memcpy(buffer.data(), part.texels.data(), part.texels.size());
     session->run([&](VkCommandBuffer commands) {
-      session->check(recordTableUpload(tables.get(), commands, session->device().frame(), id,
+      session->check(recordTableUpload(tables.get(), commands, id,
                                        buffer.buffer(), 0));
       return "upload";
     });
@@ -117,7 +117,7 @@ TablesPointer bakeTables(Session* session, const Parameters& parameters, const T
   while (!progress.done) {
     const double seconds = session->run([&](VkCommandBuffer commands) {
       session->check(
-          recordBake(tables.get(), commands, session->device().frame(), budget, &progress));
+          recordBake(tables.get(), commands, budget, &progress));
       return std::string(progress.pass);
     });
     budget = nextBudget(progress.unitsRecorded, seconds);

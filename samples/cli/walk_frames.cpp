@@ -3,8 +3,8 @@
 #include <alpenglow/io/atmosphere_file.h>
 
 #include <algorithm>
-#include <cstring>
 
+#include "common/compare.h"
 #include "common/scene_plan.h"
 
 namespace alpenglow::cli {
@@ -12,7 +12,7 @@ namespace {
 
 // Options and solver are the same for all of a walk, so that only these follow the air.
 bool sameShape(const TableDesc& a, const TableDesc& b) {
-  return std::memcmp(&a.sizes, &b.sizes, sizeof a.sizes) == 0;
+  return samples::same(a.sizes, b.sizes);
 }
 
 }  // namespace
@@ -51,11 +51,12 @@ void WalkFrames::usePainter(const io::Scene& scene) {
 
 // Of a camera and a sun that may go anywhere, with tables as they are.
 Plan WalkFrames::planOf(const io::Scene& scene) const {
-  Needs needs = samples::needsOfFlight(scene);
-  needs.occluders = parts_.shafts.has_value();
+  PlanRequest request = samples::requestOfFlight(scene);
+  request.casters = parts_.shafts.has_value();
   for (uint32_t i = 0; i < kEffectCount; ++i)
-    if ((kTableEffects & (1u << i)) != 0) needs.effects[i] = Force::On;
-  return samples::planNeeds(scene, needs, ready_->desc);
+    if ((kTableEffects & (1u << i)) != 0) request.effects[i] = Force::On;
+  request.tables = ready_->desc;
+  return samples::planRequest(scene, request);
 }
 
 io::LinearImage WalkFrames::draw(const io::Scene& scene) {

@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "failure.h"
-#include "terrain/landscape.h"
 
 namespace alpenglow::samples {
 namespace {
@@ -16,17 +15,17 @@ double spread(const io::Scene& scene) {
   return 0.5 * height * std::hypot(1.0, double(scene.width) / double(scene.height));
 }
 
-void describeCamera(const io::Scene& scene, Needs* needs) {
+void describeCamera(const io::Scene& scene, PlanRequest* request) {
   const double own = std::max(scene.camera.altitude_m, 0.0), around = spread(scene);
-  needs->altitudeFrom_m = std::max(own - around, 0.0);
+  request->altitudeFrom_m = std::max(own - around, 0.0);
   // 0 would be no limit.
-  needs->altitudeTo_m = std::max(own + around, 1.0);
+  request->altitudeTo_m = std::max(own + around, 1.0);
   if (!scene.needs || !scene.needs->altitude_m[0]) return;
-  needs->altitudeFrom_m = *scene.needs->altitude_m[0];
-  needs->altitudeTo_m = std::max(*scene.needs->altitude_m[1] + around, 1.0);
+  request->altitudeFrom_m = *scene.needs->altitude_m[0];
+  request->altitudeTo_m = std::max(*scene.needs->altitude_m[1] + around, 1.0);
 }
 
-void describeSun(const io::Scene& scene, Needs* needs) {
+void describeSun(const io::Scene& scene, PlanRequest* request) {
   const double around = spread(scene) / scene.atmosphere.bottomRadius_m;
   double from = scene.sun.elevation, to = from;
   if (scene.needs && scene.needs->sunElevation[0]) {
@@ -34,28 +33,32 @@ void describeSun(const io::Scene& scene, Needs* needs) {
     to = *scene.needs->sunElevation[1];
   }
   constexpr double kRightAngle = 1.5707963267948966;
-  needs->sunElevationFrom = std::clamp(from - around, -kRightAngle, kRightAngle);
-  needs->sunElevationTo = std::clamp(to + around, -kRightAngle, kRightAngle);
-  needs->sunFixed = needs->sunElevationFrom == needs->sunElevationTo;
+  request->sunElevationFrom = std::clamp(from - around, -kRightAngle, kRightAngle);
+  request->sunElevationTo = std::clamp(to + around, -kRightAngle, kRightAngle);
+  request->sunFixed = request->sunElevationFrom == request->sunElevationTo;
 }
 
 // Terrain and balloons are drawn by shaders that read every table.
-void keepTables(const io::Scene& scene, Needs* needs) {
+void keepTables(const io::Scene& scene, PlanRequest* request) {
   if (!scene.terrain && scene.balloons.empty()) return;
   for (uint32_t i = 0; i < kEffectCount; ++i) {
     const auto effect = static_cast<Effect>(i);
     if ((kTableEffects & effectBit(effect)) == 0) continue;
-    if (needs->effects[i] == Force::Off) {
+    if (request->effects[i] == Force::Off) {
       throw Failure(
           std::string("The scene turns ") + effectName(effect) +
           " off, but its terrain or balloons are drawn with all tables: only scenes without them "
           "can be without it.");
     }
-    needs->effects[i] = Force::On;
+    request->effects[i] = Force::On;
   }
 }
 
 }  // namespace
+
+Projection projectionOf(const io::SceneCamera& camera) {
+  return camera.orthographicHeight_m ? Projection::Orthographic : camera.projection;
+}
 
 void checkScenery(const io::Scene& scene) {
   if (scene.stars && io::solverOf(scene.model)) {
@@ -82,56 +85,69 @@ SkyDraw describeDraw(const io::Scene& scene) {
   return draw;
 }
 
-Needs needsOf(const io::Scene& scene) {
-  Needs needs;
-  needs.projection = projectionOf(scene.camera);
-  describeCamera(scene, &needs);
-  describeSun(scene, &needs);
-  needs.seen = kSeenSky | kSeenGround | kSeenSpace | kSeenSun;
-  if (!scene.needs) needs.seen = seenBy(scene.atmosphere, needs.projection, describeDraw(scene));
-  if (scene.terrain) needs.seen |= kSeenTerrain;
-  needs.sunDiscRadius = scene.sun.discRadius;
-  needs.exposureTo = scene.exposure.value_or(0.0);
-  needs.occluders = scene.terrain.has_value() && scene.shafts != io::SceneShafts::Off;
-  std::copy_n(scene.effects, kEffectCount, needs.effects);
+PlanRequest requestOf(const io::Scene& scene) {
+  PlanRequest request;
+  request.projection = projectionOf(scene.camera);
+  describeCamera(scene, &request);
+  describeSun(scene, &request);
+  request.visible = kVisibleSky | kVisibleGround | kVisibleSpace | kVisibleSun;
+  if (!scene.needs)
+    request.visible = visibleFrom(scene.atmosphere, request.projection, describeDraw(scene));
+  if (scene.terrain) request.visible |= kVisibleScene;
+  request.sunDiscRadius = scene.sun.discRadius;
+  request.exposure = scene.exposure.value_or(0.0);
+  request.casters = scene.terrain.has_value() && scene.shafts != io::SceneShafts::Off;
+  std::copy_n(scene.effects, kEffectCount, request.effects);
   if (scene.needs) {
-    needs.exposureTo = scene.needs->exposure.value_or(0.0);
-    needs.error = scene.needs->error;
-    needs.budgetBytes = scene.needs->budgetBytes;
-    needs.budgetSeconds = scene.needs->budgetSeconds;
+    request.exposure = scene.needs->exposure.value_or(0.0);
+    request.errorTarget = scene.needs->error;
+    request.budgetBytes = scene.needs->budgetBytes;
+    request.budgetSeconds = scene.needs->budgetSeconds;
   }
-  keepTables(scene, &needs);
-  return needs;
+  keepTables(scene, &request);
+  return request;
 }
 
-Needs needsOfFlight(const io::Scene& scene) {
-  Needs needs;
-  needs.projection = projectionOf(scene.camera);
-  needs.seen = kSeenSky | kSeenGround | kSeenSpace | kSeenSun;
-  if (scene.terrain) needs.seen |= kSeenTerrain;
-  needs.sunDiscRadius = std::max(scene.sun.discRadius, 1e-3);
-  needs.occluders = scene.terrain.has_value() && scene.shafts != io::SceneShafts::Off;
-  std::copy_n(scene.effects, kEffectCount, needs.effects);
-  keepTables(scene, &needs);
-  return needs;
+PlanRequest requestOfFlight(const io::Scene& scene) {
+  PlanRequest request;
+  request.projection = projectionOf(scene.camera);
+  request.visible = kVisibleSky | kVisibleGround | kVisibleSpace | kVisibleSun;
+  if (scene.terrain) request.visible |= kVisibleScene;
+  request.sunDiscRadius = std::max(scene.sun.discRadius, 1e-3);
+  request.casters = scene.terrain.has_value() && scene.shafts != io::SceneShafts::Off;
+  std::copy_n(scene.effects, kEffectCount, request.effects);
+  keepTables(scene, &request);
+  return request;
 }
 
-Plan planScene(const io::Scene& scene, const TableDesc& base) {
-  return planNeeds(scene, needsOf(scene), base);
+Plan planScene(const io::Scene& scene, const TableDesc& tables) {
+  PlanRequest request = requestOf(scene);
+  request.tables = tables;
+  return planRequest(scene, request);
 }
 
-Plan planNeeds(const io::Scene& scene, const Needs& needs, const TableDesc& base) {
+Plan planRequest(const io::Scene& scene, const PlanRequest& request) {
   Plan plan;
-  char message[512] = "There is not enough memory for a plan.";
-  const Status status = makePlan(scene.atmosphere, needs, base, &plan, message, sizeof message);
-  if (status != Status::Ok) throw Failure(message);
+  std::string message;
+  const DiagnosticSink sink = {[](void* user, const Diagnostic& diagnostic) {
+                                 *static_cast<std::string*>(user) = diagnostic.message;
+                               },
+                               &message};
+  if (makePlan(scene.atmosphere, request, &plan, sink) != Status::Ok) throw Failure(message);
   for (uint32_t i = 0; i < kEffectCount; ++i) {
     // keepTables turned it on, not the scene.
-    if (needs.effects[i] != Force::On || scene.effects[i] != Force::Auto) continue;
-    std::snprintf(plan.effects[i].reason, sizeof plan.effects[i].reason,
+    if (request.effects[i] != Force::On || scene.effects[i] != Force::Auto) continue;
+    std::snprintf(plan.choices[i].reason, sizeof plan.choices[i].reason,
                   "The shaders of the scene's terrain or balloons read its tables.");
   }
   return plan;
+}
+
+void describeView(const Plan& plan, ViewDesc* view) {
+  view->solver = plan.tables.solver;
+  view->mie = plan.tables.mie;
+  view->without = plan.viewWithout;
+  view->alwaysSliced = plan.skySlice;
 }
 
 TableDesc tablesOf(const io::Scene& scene) {

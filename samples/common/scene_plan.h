@@ -2,8 +2,12 @@
 #pragma once
 
 #include <alpenglow/io/scene_file.h>
+#include <alpenglow/plan.h>
 
 namespace alpenglow::samples {
+
+/// Projection of a scene's camera.
+Projection projectionOf(const io::SceneCamera& camera);
 
 /// Throws a Failure for what the samples don't draw: triangles with a fisheye camera, stars with a
 /// simpler model.
@@ -14,16 +18,19 @@ SkyDraw describeDraw(const io::Scene& scene);
 
 /// What a scene may ask for: all of SceneNeeds, or, of a still, its camera and sun and what they
 /// see.
-Needs needsOf(const io::Scene& scene);
+PlanRequest requestOf(const io::Scene& scene);
 
 /// Those of a camera and a sun that may go anywhere.
-Needs needsOfFlight(const io::Scene& scene);
+PlanRequest requestOfFlight(const io::Scene& scene);
 
-/// Throws a Failure for needs that contradict themselves.
-Plan planScene(const io::Scene& scene, const TableDesc& base);
+/// Throws a Failure for a request that contradicts itself.
+Plan planScene(const io::Scene& scene, const TableDesc& tables);
 
-/// The same of other needs.
-Plan planNeeds(const io::Scene& scene, const Needs& needs, const TableDesc& base);
+/// The same of another request.
+Plan planRequest(const io::Scene& scene, const PlanRequest& request);
+
+/// Fills what a plan decides of a view: solver, mie, without, alwaysSliced.
+void describeView(const Plan& plan, ViewDesc* view);
 
 /// The description that a scene's plan starts from: what the scene says of its tables.
 TableDesc tablesOf(const io::Scene& scene);

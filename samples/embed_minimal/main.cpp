@@ -62,13 +62,10 @@ void makeDevice(Host& host) {
   vkEnumeratePhysicalDevices(vk.instance, &count, &vk.physicalDevice);
   if (count == 0) fail("There is no Vulkan device.");
   vk.getInstanceProcAddr = vkGetInstanceProcAddr;
-  vk.diagnostic = [](void*, const ag::Diagnostic& diagnostic) {
+  vk.diagnostics.report = [](void*, const ag::Diagnostic& diagnostic) {
     std::fprintf(stderr, "%s\n", diagnostic.message);
   };
-  check(ag::queryRequirements(vkGetInstanceProcAddr, vk.instance, vk.physicalDevice,
-                              ag::kCapabilityBake | ag::kCapabilitySky, &vk.enabled, vk.diagnostic,
-                              nullptr),
-        "Asking the device for what is needed");
+  check(ag::queryRequirements(vk, &vk.enabled), "Asking the device for what is needed");
   VkQueueFamilyProperties families[16];
   count = 16;
   vkGetPhysicalDeviceQueueFamilyProperties(vk.physicalDevice, &count, families);
@@ -79,8 +76,9 @@ void makeDevice(Host& host) {
   if (host.family == count) fail("The device has no queue for both graphics and compute.");
   VkPhysicalDeviceVulkan13Features features13{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-  features13.synchronization2 = vk.enabled.synchronization2;
-  features13.dynamicRendering = vk.enabled.dynamicRendering;
+  const ag::DeviceFeatureFlags newer = vk.enabled.deviceFeatures;
+  features13.synchronization2 = (newer & ag::kFeatureSynchronization2) != 0;
+  features13.dynamicRendering = (newer & ag::kFeatureDynamicRendering) != 0;
   VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &features13,
                                      vk.enabled.features};
   const float priority = 1.0f;
@@ -172,7 +170,7 @@ void recordPicture(Host& host, ag::View* view, const ag::Tables* tables, const a
       VK_STRUCTURE_TYPE_RENDERING_INFO, nullptr, 0, sky.viewport, 1, 0, 1, &color};
   transition(host, VK_IMAGE_LAYOUT_UNDEFINED, kDraw);
   vkCmdBeginRendering(host.commands, &rendering);
-  check(ag::recordSky(view, host.commands, host.frame, tables, sky), "Drawing the sky");
+  check(ag::recordSky(view, host.commands, tables, sky), "Drawing the sky");
   vkCmdEndRendering(host.commands);
   transition(host, kDraw, kCopy);
   VkBufferImageCopy copy{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {kWidth, kHeight, 1}};
@@ -197,14 +195,14 @@ void drawSky(Host& host, const std::string& path, bool small) {
   ag::Context* context = nullptr;
   check(ag::createContext(host.vulkan, &context), "Making the context");
   ag::Parameters earth;
-  check(ag::findPreset("earth", &earth), "Finding the Earth");
+  check(ag::findPreset("earth", &earth, host.vulkan.diagnostics), "Finding the Earth");
   ag::TableDesc desc;
   if (small) desc.orders = 2, desc.quality = ag::Quality::Draft;
   ag::Tables* tables = nullptr;
   check(ag::createTables(context, earth, desc, &tables), "Making the tables");
   for (ag::BakeProgress progress; !progress.done;) {
     runFrame(host, [&] {
-      check(ag::recordBake(tables, host.commands, host.frame, kSliceUnits, &progress), "Baking");
+      check(ag::recordBake(tables, host.commands, kSliceUnits, &progress), "Baking");
     });
   }
 
@@ -221,8 +219,8 @@ void drawSky(Host& host, const std::string& path, bool small) {
   runFrame(host, [&] { recordPicture(host, view, tables, sky); });
   writePicture(host, path);
 
-  ag::destroyView(view, host.frame);
-  ag::destroyTables(tables, host.frame);
+  ag::destroyView(view);
+  ag::destroyTables(tables);
   ag::destroyContext(context);
 }
 

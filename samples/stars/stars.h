@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "terrain/gpu.h"
+#include "common/gpu.h"
 
 namespace alpenglow::samples {
 

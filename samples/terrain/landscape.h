@@ -14,14 +14,14 @@
 #include <alpenglow/io/scene_file.h>
 #include <alpenglow/shafts.h>
 
+#include <optional>
 #include <vector>
 
-#include "gpu.h"
+#include "common/gpu.h"
+#include "landscape_pipelines.h"
 #include "terrain_mesh.h"
 
 namespace alpenglow::samples {
-
-inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 
 struct LandscapeDesc {
   Context* context = nullptr;
@@ -32,9 +32,6 @@ struct LandscapeDesc {
   MieStorage mie = MieStorage::Full;   ///< The same.
   const ShaftsDesc* shafts = nullptr;  ///< Method and samples, the rest is filled in; null: none.
 };
-
-/// Projection of a scene's camera.
-Projection projectionOf(const io::SceneCamera& camera);
 
 class Landscape {
  public:
@@ -76,10 +73,7 @@ class Landscape {
  private:
   void uploadTerrain(const io::SceneTerrain& terrain, const io::AlbedoMap* albedo);
   void makeShafts(const LandscapeDesc& desc);
-  void makeSets(const Tables* tables);
-  void makePipelines(const LandscapeDesc& desc);
   void setPicture(VkCommandBuffer commands, const SkyDraw& draw) const;
-  void bind(VkCommandBuffer commands, VkPipeline pipeline, const Tables* tables) const;
   void placeTerrain(VkCommandBuffer commands, const SkyDraw& draw) const;
   void drawTerrain(VkCommandBuffer commands, const headless::HostBuffer& indices,
                    size_t count) const;
@@ -91,16 +85,11 @@ class Landscape {
   const TerrainMesh* mesh_;
   headless::Image depth_, albedo_;
   VkRenderingAttachmentInfo depthAttachment_ = {};
-  headless::HostBuffer vertices_, indices_, frame_;
+  headless::HostBuffer vertices_, indices_;
   headless::HostBuffer adjacency_;  ///< Only for the paper's shadow volumes.
   size_t adjacencyCount_ = 0;
   Shafts* shafts_ = nullptr;
-  Owned<VkSampler> sampler_;
-  Owned<VkDescriptorSetLayout> frameLayout_, albedoLayout_;
-  Owned<VkDescriptorPool> pool_;
-  VkDescriptorSet frameSet_ = VK_NULL_HANDLE, albedoSet_ = VK_NULL_HANDLE;
-  Owned<VkPipelineLayout> layout_;
-  Owned<VkPipeline> depthPipeline_, terrainPipeline_, balloonPipeline_;
+  std::optional<LandscapePipelines> pipelines_;  ///< Made once images and shafts are there.
 };
 
 }  // namespace alpenglow::samples

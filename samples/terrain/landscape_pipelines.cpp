@@ -1,4 +1,5 @@
-// Descriptor sets and pipelines of a landscape.
+#include "landscape_pipelines.h"
+
 #include <alpenglow/shaders/sample_balloon.h>
 #include <alpenglow/shaders/sample_balloon_hillaire.h>
 #include <alpenglow/shaders/sample_balloon_hoffman_preetham.h>
@@ -16,20 +17,19 @@
 #include <alpenglow/shaders/sample_terrain_standard.h>
 #include <alpenglow/shaders/sample_terrain_vertex.h>
 
-#include "landscape.h"
 #include "tables_info.h"
+#include "terrain_mesh.h"
 
 namespace alpenglow::samples {
 namespace {
 
-constexpr VkShaderStageFlags kBoth = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+constexpr VkShaderStageFlags kBoth = LandscapePipelines::kPushStages;
 constexpr VkDescriptorSetLayoutBinding kFrameBinding = {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1,
                                                         kBoth, nullptr};
 constexpr VkDescriptorSetLayoutBinding kAlbedoBinding = {
     0, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, VK_SHADER_STAGE_FRAGMENT_BIT, nullptr};
 /// The larger of what terrain and balloons push.
 constexpr VkPushConstantRange kPush = {kBoth, 0, 12 * sizeof(float)};
-constexpr VkDeviceSize kFrameBytes = 32 * sizeof(float);
 
 constexpr VkVertexInputAttributeDescription kAttributes[] = {
     {0, 0, VK_FORMAT_R32G32B32_SFLOAT, offsetof(TerrainVertex, position)},
@@ -101,44 +101,52 @@ Code textOf(Solver solver, bool shafts, bool terrain) {
 
 }  // namespace
 
-void Landscape::makeSets(const Tables* tables) {
-  frame_ = gpu_->buffer(kFrameBytes,
+LandscapePipelines::LandscapePipelines(const Gpu* gpu, const LandscapePipelinesDesc& desc)
+    : gpu_(gpu), shafts_(desc.shafts) {
+  makeSets(desc);
+  makePipelines(desc);
+}
+
+void LandscapePipelines::makeSets(const LandscapePipelinesDesc& desc) {
+  frame_ = gpu_->buffer(sizeof(FrameBlock),
                         VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   frameLayout_ = gpu_->setLayout({&kFrameBinding, 1});
   albedoLayout_ = gpu_->setLayout({&kAlbedoBinding, 1});
   pool_ = makePool(*gpu_);
   frameSet_ = allocateSet(*gpu_, pool_.get(), frameLayout_.get());
-  const VkDescriptorBufferInfo buffer = {frame_.buffer(), 0, kFrameBytes};
+  const VkDescriptorBufferInfo buffer = {frame_.buffer(), 0, sizeof(FrameBlock)};
   write(*gpu_, frameSet_, kFrameBinding.descriptorType, &buffer, nullptr);
-  if (mesh_ != nullptr) {
+  if (desc.terrainAlbedo != nullptr) {
+    sampler_ = gpu_->sampler(VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE);
     albedoSet_ = allocateSet(*gpu_, pool_.get(), albedoLayout_.get());
-    const VkDescriptorImageInfo image = {sampler_.get(), albedo_.view(), kSampled.layout};
+    const VkDescriptorImageInfo image = {sampler_.get(), desc.terrainAlbedo->view(),
+                                         kSampled.layout};
     write(*gpu_, albedoSet_, kAlbedoBinding.descriptorType, nullptr, &image);
   }
   const VkDescriptorSetLayout sets[] = {
-      infoOf(tables).setLayout, frameLayout_.get(), albedoLayout_.get(),
+      infoOf(desc.tables).setLayout, frameLayout_.get(), albedoLayout_.get(),
       shafts_ != nullptr ? shaftSetLayout(shafts_) : VK_NULL_HANDLE};
   layout_ = gpu_->pipelineLayout({sets, shafts_ != nullptr ? size_t{4} : size_t{3}}, kPush);
 }
 
-void Landscape::makePipelines(const LandscapeDesc& desc) {
+void LandscapePipelines::makePipelines(const LandscapePipelinesDesc& desc) {
   namespace s = alpenglow::shaders;
-  const bool standard = desc.solver == Solver::Standard;
+  const bool terrain = desc.terrainAlbedo != nullptr;
   PipelineDesc pipeline;
   pipeline.layout = layout_.get();
-  pipeline.depth = mesh_ != nullptr ? kDepthFormat : VK_FORMAT_UNDEFINED;
-  if (mesh_ != nullptr) {
+  pipeline.depth = terrain ? kDepthFormat : VK_FORMAT_UNDEFINED;
+  if (terrain) {
     pipeline.vertex = s::kSampleTerrainVertex;
     pipeline.vertexStride = sizeof(TerrainVertex);
     pipeline.attributes = kAttributes;
     pipeline.writesDepth = true;
-    depthPipeline_ = gpu_->pipeline(pipeline);
+    depth_ = gpu_->pipeline(pipeline);
     pipeline.writesDepth = false;
     pipeline.color = desc.colorFormat;
     pipeline.fragment = textOf(desc.solver, shafts_ != nullptr, true);
-    terrainPipeline_ = gpu_->pipeline(pipeline);
+    terrain_ = gpu_->pipeline(pipeline);
   }
-  if (balloons_.empty()) return;
+  if (!desc.balloons) return;
   pipeline.vertex = s::kSampleBalloonVertex;
   pipeline.vertexStride = 0;
   pipeline.attributes = {};
@@ -148,8 +156,40 @@ void Landscape::makePipelines(const LandscapeDesc& desc) {
   const VkBool32 packed = desc.mie == MieStorage::Packed;
   const VkSpecializationMapEntry entry = {0, 0, sizeof packed};
   const VkSpecializationInfo constants = {1, &entry, sizeof packed, &packed};
-  if (standard) pipeline.fragmentConstants = &constants;
-  balloonPipeline_ = gpu_->pipeline(pipeline);
+  if (desc.solver == Solver::Standard) pipeline.fragmentConstants = &constants;
+  balloon_ = gpu_->pipeline(pipeline);
+}
+
+void LandscapePipelines::bind(VkCommandBuffer commands, VkPipeline pipeline,
+                              const Tables* tables) const {
+  const auto bindSets = gpu_->function<PFN_vkCmdBindDescriptorSets>("vkCmdBindDescriptorSets");
+  const auto bindSet = [&](uint32_t index, VkDescriptorSet set) {
+    if (set == VK_NULL_HANDLE) return;
+    bindSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), index, 1, &set, 0, nullptr);
+  };
+  gpu_->function<PFN_vkCmdBindPipeline>("vkCmdBindPipeline")(
+      commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+  bindSet(0, infoOf(tables).set);
+  bindSet(1, frameSet_);
+  bindSet(2, albedoSet_);
+  bindSet(3, shafts_ != nullptr && tables != nullptr ? shaftSet(shafts_) : VK_NULL_HANDLE);
+}
+
+void LandscapePipelines::bindDepth(VkCommandBuffer commands) const {
+  bind(commands, depth_.get(), nullptr);
+}
+
+void LandscapePipelines::bindTerrain(VkCommandBuffer commands, const Tables* tables) const {
+  bind(commands, terrain_.get(), tables);
+}
+
+void LandscapePipelines::bindBalloons(VkCommandBuffer commands, const Tables* tables) const {
+  bind(commands, balloon_.get(), tables);
+}
+
+void LandscapePipelines::push(VkCommandBuffer commands, const void* data, uint32_t bytes) const {
+  gpu_->function<PFN_vkCmdPushConstants>("vkCmdPushConstants")(commands, layout_.get(), kPushStages,
+                                                               0, bytes, data);
 }
 
 }  // namespace alpenglow::samples

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "gpu.h"
+#include "common/gpu.h"
 
 namespace alpenglow::samples {
 namespace {
@@ -38,16 +38,16 @@ TerrainMesh loadTerrain(const Parameters& parameters, const io::SceneTerrain& te
   if (!map) throw Error(map.error);
   const TerrainDesc desc = describe(parameters, terrain, *map);
   std::string sentence;
+  const DiagnosticSink sink = {keepSentence, &sentence};
   const auto check = [&](Status status) {
     if (status != Status::Ok) throw Error("The terrain can't be built: " + sentence);
   };
   TerrainSize size;
-  check(terrainSize(desc, &size, keepSentence, &sentence));
+  check(terrainSize(desc, &size, sink));
   TerrainMesh mesh;
   mesh.vertices.resize(size.vertexCount);
   mesh.indices.resize(size.indexCount);
-  check(buildTerrain(desc, mesh.vertices.data(), mesh.indices.data(), &mesh.place, keepSentence,
-                     &sentence));
+  check(buildTerrain(desc, mesh.vertices.data(), mesh.indices.data(), &mesh.place, sink));
   return mesh;
 }
 
@@ -60,7 +60,7 @@ std::vector<uint32_t> withAdjacency(const TerrainMesh& mesh) {
   view.indexCount = static_cast<uint32_t>(mesh.indices.size());
   std::vector<uint32_t> adjacency(2 * mesh.indices.size());
   std::string sentence;
-  if (buildAdjacency(view, adjacency.data(), nullptr, keepSentence, &sentence) != Status::Ok)
+  if (buildAdjacency(view, adjacency.data(), nullptr, {keepSentence, &sentence}) != Status::Ok)
     throw Error("The terrain's neighbours can't be found: " + sentence);
   return adjacency;
 }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
 #include <thread>
 
@@ -71,10 +70,13 @@ Host::Host(const AppOptions& options, Window* window) {
           kCapabilityAir | kCapabilityShafts, CapabilityFlags{kCapabilityAir},
           CapabilityFlags{0}}) {
       capabilities = kNeeded | wish;
-      if (queryRequirements(get, instance, physical, capabilities, out, keepError, missing) ==
-          Status::Ok) {
-        return Status::Ok;
-      }
+      ContextDesc desc;
+      desc.instance = instance;
+      desc.physicalDevice = physical;
+      desc.getInstanceProcAddr = get;
+      desc.capabilities = capabilities;
+      desc.diagnostics = {keepError, missing};
+      if (queryRequirements(desc, out) == Status::Ok) return Status::Ok;
     }
     return Status::Unsupported;
   };
@@ -95,18 +97,14 @@ Host::Host(const AppOptions& options, Window* window) {
       },
       [this](Status status) {
         if (status != Status::Ok) throw Failure(lastError);
-      },
-      [this] { return presenter->numbers(); });
+      });
   presenter.emplace(&*gpu, window, options.config.vsync);
   ContextDesc desc = device->contextDesc();
   desc.capabilities = capabilities;
-  desc.diagnostic = keepError;
-  desc.user = &lastError;
-  ShaderHook hook;
+  desc.diagnostics = {keepError, &lastError};
   if (!options.shaders.empty()) {
     shaders.emplace(options.shaders);
-    hook = shaders->hook();
-    desc.shaders = &hook;
+    desc.shaders = shaders->hook();
   }
   gpu->check(createContext(desc, &context));
 }
@@ -175,7 +173,8 @@ void App::frame() {
     return;
   }
   frameTimes_ms_.push_back(static_cast<float>(1e3 * seconds));
-  collect(host_.context, host_.presenter->numbers().completed);
+  const FrameNumbers numbers = host_.presenter->numbers();
+  host_.gpu->check(advanceFrame(host_.context, numbers.submitting, numbers.completed));
   timer_.begin(frame);
   state_.scene.width = frame.size.width;
   state_.scene.height = frame.size.height;
@@ -232,8 +231,9 @@ void App::followScene() {
   planned_ = scene;
   hasPlan_ = true;
   try {
-    const Plan plan =
-        samples::planNeeds(scene, samples::needsOfFlight(scene), samples::tablesOf(scene));
+    PlanRequest request = samples::requestOfFlight(scene);
+    request.tables = samples::tablesOf(scene);
+    const Plan plan = samples::planRequest(scene, request);
     const bool all = baker_.want(scene.atmosphere, plan);
     state_.message.clear();
     if (all && air_) {  // Other pipelines may be called for.
@@ -334,12 +334,12 @@ void App::drawPicture(const Frame& frame) {
   Shown now;
   now.draw = samples::describeDraw(scene);
   now.draw.viewport = {};
-  if (air_ && !air_->plan.effects[static_cast<uint32_t>(Effect::SunDisc)].on) {
+  if (air_ && !air_->plan.choices[static_cast<uint32_t>(Effect::SunDisc)].on) {
     now.draw.sun.discRadius = 0.0;
   }
   now.tables = air_ ? air_->tables.get() : nullptr;
   now.siderealHours = scene.stars ? scene.stars->siderealHours : -1.0;
-  const bool changed = stale_ || std::memcmp(&now, &shown_, sizeof now) != 0;
+  const bool changed = stale_ || now != shown_;
   if (changed) lastChange_ = Clock::now();
   shown_ = now;
   stale_ = false;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "baker.h"
+#include "common/compare.h"
 #include "config.h"
 #include "interface.h"
 #include "panel.h"
@@ -97,6 +98,10 @@ class App {
     SkyDraw draw;
     const Tables* tables = nullptr;
     double siderealHours = 0.0;  ///< -1 without stars.
+    bool operator==(const Shown& other) const {
+      return samples::same(draw, other.draw) && tables == other.tables &&
+             siderealHours == other.siderealHours;
+    }
   };
   Shown shown_;
   bool stale_ = true;     ///< Pipelines have changed since.

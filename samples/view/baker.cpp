@@ -30,18 +30,18 @@ TableDesc draftOf(TableDesc desc) {
 }  // namespace
 
 bool Baker::wanted(const Air& air, bool alsoDraft) const {
-  const TableDesc& desc = wish_.plan.tableDesc;
+  const TableDesc& desc = wish_.plan.tables;
   return sameTables(air.desc, desc) && (alsoDraft || air.desc.quality == desc.quality) &&
          io::firstDifference(air.parameters, wish_.parameters).empty();
 }
 
 void Baker::start(bool draft) {
-  Air air = {wish_.parameters, wish_.plan,
-             draft ? draftOf(wish_.plan.tableDesc) : wish_.plan.tableDesc, nullptr};
+  Air air = {wish_.parameters, wish_.plan, draft ? draftOf(wish_.plan.tables) : wish_.plan.tables,
+             nullptr};
   Tables* made = nullptr;
   gpu_->check(createTables(context_, air.parameters, air.desc, &made));
   const samples::Gpu* gpu = gpu_;
-  air.tables = {made, [gpu](Tables* tables) { destroyTables(tables, gpu->frame()); }};
+  air.tables = {made, [gpu](Tables* tables) { destroyTables(tables); }};
   baking_ = std::move(air);
   draft_ = draft;
   progress_ = {};
@@ -51,7 +51,7 @@ bool Baker::want(const Parameters& parameters, const Plan& plan) {
   const Wish before = std::exchange(wish_, {parameters, plan});
   if (baking_ && (draft_ || wanted(*baking_, false))) {
     // A draft of other tables keeps the plan that it was made by.
-    if (sameTables(baking_->desc, plan.tableDesc)) baking_->plan = plan;
+    if (sameTables(baking_->desc, plan.tables)) baking_->plan = plan;
     return false;
   }
   if (made_ && wanted(*made_, false)) {
@@ -60,7 +60,7 @@ bool Baker::want(const Parameters& parameters, const Plan& plan) {
     return true;
   }
   try {
-    start(hasDraft(plan.tableDesc));
+    start(hasDraft(plan.tables));
   } catch (...) {
     wish_ = before;
     throw;
@@ -109,7 +109,7 @@ void Baker::record(const Frame& frame, PassTimer* timer, double seconds) {
     const Kind before = {baking_->desc.quality, progress_.passFinished ? "" : progress_.pass};
     const double budget = std::max(seconds * unitsPerSecond(before), 1.0);
     timer->time(frame, "bake", [&] {
-      gpu_->check(recordBake(baking_->tables.get(), frame.commands, gpu_->frame(),
+      gpu_->check(recordBake(baking_->tables.get(), frame.commands,
                              static_cast<uint64_t>(budget), &progress_));
     });
     const Kind kind = {baking_->desc.quality, progress_.pass};
@@ -124,7 +124,7 @@ std::optional<Air> Baker::take() {
   if (!wanted(*made_, false)) {
     // The draft of what is wanted, or, where that has changed since, first a draft of it.
     try {
-      start(!wanted(*made_, true) && hasDraft(wish_.plan.tableDesc));
+      start(!wanted(*made_, true) && hasDraft(wish_.plan.tables));
     } catch (const std::exception& reason) {
       refusal_ = reason.what();
     }

@@ -4,27 +4,27 @@
 #include <alpenglow/io/table_file.h>
 
 #include <algorithm>
+#include <span>
 
 namespace alpenglow::view {
 namespace {
 
 Choice presetChoice() {
   Choice choice = {"preset", {}, {}, {}};
-  for (uint32_t i = 0; i < presetCount(); ++i) choice.values.push_back(presetName(i));
+  static const std::span<const Preset> kAll = [] {
+    uint32_t count = 0;
+    const Preset* const first = presets(&count);
+    return std::span(first, count);
+  }();
+  for (const Preset& preset : kAll) choice.values.emplace_back(preset.name);
   choice.get = [](const State& state) {
-    size_t i = 0;
-    for (; i < presetCount(); ++i) {
-      Parameters preset;
-      if (findPreset(presetName(static_cast<uint32_t>(i)), &preset) != Status::Ok) continue;
-      if (io::firstDifference(preset, state.scene.atmosphere).empty()) break;
-    }
-    return i;
+    const auto same = [&](const Preset& preset) {
+      return io::firstDifference(preset.parameters, state.scene.atmosphere).empty();
+    };
+    return static_cast<size_t>(std::find_if(kAll.begin(), kAll.end(), same) - kAll.begin());
   };
   choice.set = [](State* state, size_t i) {
-    Parameters preset;
-    if (findPreset(presetName(static_cast<uint32_t>(i)), &preset) == Status::Ok) {
-      state->scene.atmosphere = preset;
-    }
+    if (i < kAll.size()) state->scene.atmosphere = kAll[i].parameters;
   };
   return choice;
 }

@@ -98,7 +98,7 @@ void showMethod(State* state, const PanelFacts& facts) {
   combo(state, "shafts", "light shafts");
   if (facts.air == nullptr) return;
   const Plan& plan = facts.air->plan;
-  const char* limit = modelLimit(plan.tableDesc.solver);
+  const char* limit = modelLimit(plan.tables.solver);
   if (limit[0] != '\0') ImGui::TextWrapped("%s", limit);
   // Of all orders: what is left out of choice is no error of the tables.
   if (plan.expectedError > 0.0 && !state->scene.orders) {
@@ -109,7 +109,7 @@ void showMethod(State* state, const PanelFacts& facts) {
   }
   ImGui::Text("tables: %.2f MB, while baking %.1f MB more", 1e-6 * double(plan.cost.bytes),
               1e-6 * double(plan.cost.bakeBytes));
-  for (uint32_t i = 0; i < plan.choiceCount; ++i) {
+  for (uint32_t i = kEffectCount; i < plan.choiceCount; ++i) {
     std::string name = plan.choices[i].name;
     std::replace(name.begin(), name.end(), '_', ' ');
     ImGui::BulletText("%s: %s", name.c_str(), plan.choices[i].value);
@@ -122,7 +122,7 @@ void showEffects(State* state, const PanelFacts& facts) {
   const Plan& plan = facts.air->plan;
   for (uint32_t i = 0; i < kEffectCount; ++i) {
     const std::string name = effectName(static_cast<Effect>(i));
-    const EffectChoice& choice = plan.effects[i];
+    const PlanChoice& choice = plan.choices[i];
     ImGui::SetNextItemWidth(0.3f * ImGui::GetContentRegionAvail().x);
     combo(state, ("effects." + name).c_str(), ("##" + name).c_str());
     ImGui::SameLine();
@@ -162,10 +162,10 @@ void showCost(const PanelFacts& facts) {
               static_cast<unsigned long long>(r.pipelines));
   if (facts.air != nullptr) {
     const Plan& plan = facts.air->plan;
-    for (uint32_t i = 0; i < plan.tableCount; ++i) {
-      const PlanTable& table = plan.tables[i];
-      ImGui::BulletText("%s, %u x %u x %u: %.2f MB", table.name, table.width, table.height,
-                        table.depth, 1e-6 * double(table.bytes));
+    for (uint32_t i = 0; i < plan.imageCount; ++i) {
+      const ImageInfo& table = plan.images[i];
+      ImGui::BulletText("%s, %u x %u x %u: %.2f MB", table.name, table.extent.width,
+                        table.extent.height, table.extent.depth, 1e-6 * double(table.bytes));
     }
   }
   ImGui::PushTextWrapPos(0.0f);

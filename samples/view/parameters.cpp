@@ -169,8 +169,12 @@ const Parameter* findParameter(const std::string& name) {
 }
 
 std::string whyInvalid(const io::Scene& scene) {
-  char message[512] = "";
-  if (validate(scene.atmosphere, message, sizeof message) != Status::Ok) return message;
+  std::string why;
+  const DiagnosticSink sink = {[](void* user, const Diagnostic& diagnostic) {
+                                 *static_cast<std::string*>(user) = diagnostic.message;
+                               },
+                               &why};
+  if (validate(scene.atmosphere, sink) != Status::Ok) return why;
   for (const Parameter& parameter : parameters()) {
     if (parameter.ofAir) continue;
     io::Scene copy = scene;

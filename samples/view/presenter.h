@@ -17,6 +17,11 @@ struct Frame {
   VkExtent2D size = {};
 };
 
+/// Of the frame being recorded, and of the newest that has completed.
+struct FrameNumbers {
+  uint64_t submitting = 1, completed = 0;
+};
+
 class Presenter {
  public:
   /// All outlive it. Throws.
@@ -26,7 +31,7 @@ class Presenter {
   ~Presenter();
 
   /// Numbers for the library: of the frame being recorded, or to be recorded next.
-  FrameInfo numbers() const { return numbers_; }
+  FrameNumbers numbers() const { return numbers_; }
   /// Waits until the frame before last is through, and begins a command buffer. False where there
   /// is nothing to draw into: minimised, or being resized.
   bool begin(Frame* frame);
@@ -76,7 +81,7 @@ class Presenter {
   std::vector<Image> images_;
   uint32_t image_ = 0;
   Slot slots_[kFramesInFlight];
-  FrameInfo numbers_ = {1, 0};
+  FrameNumbers numbers_;
 };
 
 }  // namespace alpenglow::view

@@ -27,7 +27,7 @@ Stage::Stage(const samples::Gpu* gpu, Context* context, VkExtent2D size)
 Stage::~Stage() { destroyAll(); }
 
 void Stage::destroyAll() {
-  if (view_ != nullptr) destroyView(view_, gpu_->frame());
+  if (view_ != nullptr) destroyView(view_);
   view_ = nullptr;
   landscape_.reset();
   stars_.reset();
@@ -59,14 +59,14 @@ void Stage::load(const io::Scene& scene) {
 
 Stage::Key Stage::keyOf(const io::Scene& scene, const Air& air) const {
   ViewDesc desc;
-  describeView(air.plan, &desc);
+  samples::describeView(air.plan, &desc);
   const bool shafts = air.plan.shafts && mesh_ && scene.shafts != io::SceneShafts::Off;
   return {desc.solver,
           desc.mie,
           desc.without,
           air.plan.skySlice,
           air.plan.sceneDepth && mesh_.has_value(),
-          air.plan.tableDesc.quality,
+          air.plan.tables.quality,
           samples::projectionOf(scene.camera),
           shafts ? scene.shafts : io::SceneShafts::Off,
           scene.shaftSamples};
@@ -90,7 +90,7 @@ void Stage::makeView(const Key& key, const Air& air) {
   ViewDesc desc;
   desc.colorFormat = kRadianceFormat;
   desc.projection = key.projection;
-  describeView(air.plan, &desc);
+  samples::describeView(air.plan, &desc);
   if (air.plan.skySlice) desc.skySlice = air.tables.get();
   if (albedo_.image() != VK_NULL_HANDLE) {
     desc.groundAlbedo = {albedo_.view(), sampler_.get(), samples::kSampled.layout,
@@ -147,13 +147,13 @@ void Stage::recordShadows(const Frame& frame, const Air& air, const SkyDraw& dra
   const Casters casters = landscape_->casters();
   if (!std::equal(mappedSun_, mappedSun_ + 3, draw.sun.direction)) {
     timer->time(frame, "sun map", [&] {
-      done(recordSunMap(landscape_->shafts(), frame.commands, gpu_->frame(), draw.sun.direction,
+      done(recordSunMap(landscape_->shafts(), frame.commands, draw.sun.direction,
                         casters));
     });
     std::copy_n(draw.sun.direction, 3, mappedSun_);
   }
   timer->time(frame, "shafts", [&] {
-    done(recordShafts(landscape_->shafts(), view_, frame.commands, gpu_->frame(), air.tables.get(),
+    done(recordShafts(landscape_->shafts(), view_, frame.commands, air.tables.get(),
                       draw, casters));
   });
 }
@@ -162,15 +162,14 @@ void Stage::recordShadows(const Frame& frame, const Air& air, const SkyDraw& dra
 void Stage::recordScope(const Frame& frame, const io::Scene& scene, const Air& air,
                         const SkyDraw& draw, PassTimer* timer) {
   const Tables* tables = air.tables.get();
-  const FrameInfo numbers = gpu_->frame();
   if (mesh_) {
     timer->time(frame, "terrain", [&] { landscape_->recordTerrain(frame.commands, tables, draw); });
     if (key_->air) {
       timer->time(frame, "air",
-                  [&] { done(recordAir(view_, frame.commands, numbers, tables, draw)); });
+                  [&] { done(recordAir(view_, frame.commands, tables, draw)); });
     }
   }
-  timer->time(frame, "sky", [&] { done(recordSky(view_, frame.commands, numbers, tables, draw)); });
+  timer->time(frame, "sky", [&] { done(recordSky(view_, frame.commands, tables, draw)); });
   if (scene.stars && stars_) {
     timer->time(frame, "stars", [&] {
       stars_->record(frame.commands, air.parameters, tables, draw, scene.stars->siderealHours);
@@ -195,7 +194,7 @@ void Stage::record(const Frame& frame, const io::Scene& scene, const Air& air, S
   if (landscape_) draw.depth = landscape_->depthRange(draw.camera);
   if (key_->sliced) {
     timer->time(frame, "sky slice", [&] {
-      done(recordSkySlice(view_, frame.commands, gpu_->frame(), air.tables.get(), draw));
+      done(recordSkySlice(view_, frame.commands, air.tables.get(), draw));
     });
   }
   if (landscape_) landscape_->recordFrame(frame.commands, draw);

@@ -2,8 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // From linear radiance to the window's 8-bit sRGB: exposure, colour balance, tone map, and the dither that
 // io::toneMapped has, so that a screenshot shows what the window shows.
-#include "physics/types.glsl"
-#include "physics/tone_map.glsl"
+#include "alpenglow/tone_map.glsl"
 
 layout(set = 0, binding = 0) uniform sampler2D picture;
 layout(push_constant) uniform Tone {
@@ -23,16 +22,18 @@ float ditherAt(uvec2 at, uint channel) {
 float encoded(float value, float dither) {
   if (value >= 1.0) return 1.0;
   if (!(value > 0.0)) return 0.0;
-  return floor(255.0 * srgbEncode(value) + dither) / 255.0;
+  return floor(255.0 * alpenglowSrgbEncode(value) + dither) / 255.0;
 }
 
 void main() {
   vec3 x = textureLod(picture, min(gl_FragCoord.xy * texture_.xy, texture_.zw), 0.0).rgb;
   x = min(x * factor.rgb, vec3(1e30));  // infinity over infinity would be no number
-  vec3 mapped = factor.w == 0.0   ? toneMapFilmic(x)
-                : factor.w == 1.0 ? toneMapReinhard(x)
-                                  : toneMapLinear(x);
   uvec2 at = uvec2(gl_FragCoord.xy);
-  for (uint i = 0u; i < 3u; ++i) color[i] = encoded(mapped[i], ditherAt(at, i));
+  for (uint i = 0u; i < 3u; ++i) {
+    float mapped = factor.w == 0.0   ? alpenglowToneFilmic(x[i])
+                   : factor.w == 1.0 ? alpenglowToneReinhard(x[i])
+                                     : alpenglowToneLinear(x[i]);
+    color[i] = encoded(mapped, ditherAt(at, i));
+  }
   color.a = 1.0;
 }

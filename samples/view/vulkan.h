@@ -1,7 +1,7 @@
 // The Vulkan functions that the viewer calls itself, from its own device.
 #pragma once
 
-#include "terrain/gpu.h"
+#include "common/gpu.h"
 
 namespace alpenglow::view {
 

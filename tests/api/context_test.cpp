@@ -32,33 +32,35 @@ TEST_F(StandardSkyTest, ContextArgumentsAreChecked) {
   EXPECT_EQ(without(&ContextDesc::device), Status::InvalidArgument);
   EXPECT_EQ(without(&ContextDesc::getInstanceProcAddr), Status::InvalidArgument);
   desc = contextDesc();
-  desc.enabled.synchronization2 = false;
+  desc.enabled.deviceFeatures &= ~DeviceFeatureFlags{kFeatureSynchronization2};
   EXPECT_EQ(createContext(desc, &made), Status::Unsupported);
   EXPECT_TRUE(contains(lastDiagnostic(), "synchronization2")) << lastDiagnostic();
   desc = contextDesc();
   desc.enabled.apiVersion = VK_API_VERSION_1_2;
   EXPECT_EQ(createContext(desc, &made), Status::Unsupported);
   EXPECT_TRUE(contains(lastDiagnostic(), "1.3")) << lastDiagnostic();
-  desc.diagnostic = nullptr;  // Nobody listens: still refused, nothing else.
+  desc.diagnostics = {};  // Nobody listens: still refused, nothing else.
   EXPECT_EQ(createContext(desc, &made), Status::Unsupported);
   destroyContext(nullptr);
-  collect(nullptr, 1);
   resourceReport(nullptr, nullptr);
 }
 
 TEST_F(StandardSkyTest, RequirementsAreByCapability) {
   Requirements needed;
   const auto query = [&](CapabilityFlags wanted) {
-    return queryRequirements(device().getInstanceProcAddr(), device().instance(),
-                             device().physicalDevice(), wanted, &needed, nullptr, nullptr);
+    ContextDesc desc = contextDesc();
+    desc.capabilities = wanted;
+    return queryRequirements(desc, &needed);
   };
   EXPECT_EQ(query(kCapabilityBake), Status::Ok);
-  EXPECT_TRUE(needed.synchronization2);
-  EXPECT_FALSE(needed.dynamicRendering);
+  EXPECT_TRUE(needed.deviceFeatures & kFeatureSynchronization2);
+  EXPECT_EQ(needed.capabilities, kCapabilityBake);
+  EXPECT_FALSE(needed.deviceFeatures & kFeatureDynamicRendering);
   EXPECT_EQ(query(kCapabilitySky), Status::Ok);
-  EXPECT_TRUE(needed.dynamicRendering);
+  EXPECT_TRUE(needed.deviceFeatures & kFeatureDynamicRendering);
   EXPECT_EQ(query(0), Status::Ok);
-  EXPECT_TRUE(needed.dynamicRendering && needed.synchronization2);
+  EXPECT_EQ(needed.deviceFeatures, kFeatureDynamicRendering | kFeatureSynchronization2);
+  EXPECT_EQ(needed.capabilities, kCapabilityBake | kCapabilitySky);
   EXPECT_EQ(needed.apiVersion, VK_API_VERSION_1_3);
   EXPECT_EQ(needed.features.geometryShader, VkBool32{VK_FALSE});
   EXPECT_EQ(query(1u << 9), Status::InvalidArgument);
@@ -94,7 +96,7 @@ TEST_F(StandardSkyTest, ASkyContextTakesUploadsButDoesNotBake) {
   EXPECT_EQ(report.images, 4u);
   BakeProgress progress;
   run([&](VkCommandBuffer commands) {
-    EXPECT_EQ(recordBake(empty, commands, device().frame(), 0, &progress), Status::Unsupported);
+    EXPECT_EQ(recordBake(empty, commands, 0, &progress), Status::Unsupported);
     return true;
   });
   EXPECT_TRUE(contains(lastDiagnostic(), "kCapabilityBake")) << lastDiagnostic();
@@ -102,11 +104,11 @@ TEST_F(StandardSkyTest, ASkyContextTakesUploadsButDoesNotBake) {
   const headless::HostBuffer answers =
       device().createHostBuffer(kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, nullptr);
   run([&](VkCommandBuffer commands) {
-    EXPECT_EQ(recordProbe(empty, commands, device().frame(), &query, 1, answers.buffer()),
+    EXPECT_EQ(recordProbe(empty, commands, &query, 1, answers.buffer()),
               Status::Unsupported);
     return true;
   });
-  destroyTables(empty, FrameInfo{});
+  destroyTables(empty);
   resourceReport(made, &report);
   EXPECT_EQ(report.bytes, 0u);
   destroyContext(made);
@@ -115,7 +117,7 @@ TEST_F(StandardSkyTest, ASkyContextTakesUploadsButDoesNotBake) {
 // dynamicRendering is for views without a render pass alone.
 TEST_F(StandardSkyTest, WithoutDynamicRenderingRenderPassesDraw) {
   ContextDesc desc = contextDesc();
-  desc.enabled.dynamicRendering = false;
+  desc.enabled.deviceFeatures &= ~DeviceFeatureFlags{kFeatureDynamicRendering};
   Context* made = nullptr;
   ASSERT_EQ(createContext(desc, &made), Status::Ok) << lastDiagnostic();
   Tables* baked = nullptr;
@@ -138,12 +140,12 @@ TEST_F(StandardSkyTest, WithoutDynamicRenderingRenderPassesDraw) {
     viewDesc.renderPass = target.renderPass();
     ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok) << lastDiagnostic();
     const Picture drawn = target.draw([&](VkCommandBuffer commands) {
-      return recordSky(view, commands, device().frame(), baked, draw) == Status::Ok;
+      return recordSky(view, commands, baked, draw) == Status::Ok;
     });
     EXPECT_EQ(drawn.data, picture(draw).data);
   }
-  destroyView(view, FrameInfo{});
-  destroyTables(baked, FrameInfo{});
+  destroyView(view);
+  destroyTables(baked);
   destroyContext(made);
 }
 
@@ -169,13 +171,12 @@ TEST_F(StandardSkyTest, TableAndProbeArgumentsAreChecked) {
   Tables* const baked = tables();
   const headless::HostBuffer answers =
       device().createHostBuffer(2 * kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, nullptr);
-  const FrameInfo frame = device().frame();
   ResourceReport before, after;
   resourceReport(context(), &before);
   run([&](VkCommandBuffer commands) {
     const auto refuses = [&](const ProbeQuery& query, const char* part) {
       const ProbeQuery queries[] = {ProbeQuery{}, query};
-      EXPECT_EQ(recordProbe(baked, commands, frame, queries, 2, answers.buffer()),
+      EXPECT_EQ(recordProbe(baked, commands, queries, 2, answers.buffer()),
                 Status::InvalidArgument)
           << part;
       EXPECT_TRUE(contains(message(), "ProbeQuery 1") && contains(message(), part)) << message();
@@ -220,13 +221,13 @@ TEST_F(StandardSkyTest, TableAndProbeArgumentsAreChecked) {
     query.bounded = true;
     refuses(query, "bounded = 1");
     const ProbeQuery good;
-    EXPECT_EQ(recordProbe(baked, commands, frame, &good, 0, answers.buffer()),
+    EXPECT_EQ(recordProbe(baked, commands, &good, 0, answers.buffer()),
               Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(baked, commands, frame, nullptr, 1, answers.buffer()),
+    EXPECT_EQ(recordProbe(baked, commands, nullptr, 1, answers.buffer()),
               Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(baked, commands, frame, &good, 1, VK_NULL_HANDLE),
+    EXPECT_EQ(recordProbe(baked, commands, &good, 1, VK_NULL_HANDLE),
               Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(nullptr, commands, frame, &good, 1, answers.buffer()),
+    EXPECT_EQ(recordProbe(nullptr, commands, &good, 1, answers.buffer()),
               Status::InvalidArgument);
     return true;
   });
@@ -270,7 +271,7 @@ TEST_F(StandardSkyTest, ContextsAndAtmospheresDoNotMix) {
       done = true;
       for (Tables* one : baked) {
         BakeProgress progress;
-        EXPECT_EQ(recordBake(one, commands, device().frame(), 20000000, &progress), Status::Ok);
+        EXPECT_EQ(recordBake(one, commands, 20000000, &progress), Status::Ok);
         done = done && progress.done;
       }
       return true;
@@ -279,7 +280,7 @@ TEST_F(StandardSkyTest, ContextsAndAtmospheresDoNotMix) {
   for (size_t i = 0; i < 6; ++i) {
     const auto answers = probe(device(), baked[i], {query});
     EXPECT_EQ(answers.at(0).skyRadiance[2], alone[i % 3]) << i;
-    destroyTables(baked[i], FrameInfo{});
+    destroyTables(baked[i]);
   }
   for (Context* one : contexts) destroyContext(one);
   EXPECT_TRUE(diagnostics().empty()) << lastDiagnostic();

@@ -14,8 +14,8 @@ struct Host {
   bool nullAfterFailure = true;
 
   ~Host() {
-    destroyView(view, FrameInfo{});
-    destroyTables(tables, FrameInfo{});
+    destroyView(view);
+    destroyTables(tables);
     destroyContext(context);
   }
 
@@ -102,7 +102,7 @@ TEST_F(StandardSkyTest, FailingProbesLeaveTheTablesReady) {
   const headless::HostBuffer answers =
       device().createHostBuffer(kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, nullptr);
   ResourceReport start, end;
-  collect(context(), device().frame().completed);
+  finishFrames(context());
   resourceReport(context(), &start);
   bool succeeded = false;
   int n = 0;
@@ -112,14 +112,14 @@ TEST_F(StandardSkyTest, FailingProbesLeaveTheTablesReady) {
     run([&](VkCommandBuffer commands) {
       const ProbeQuery query;
       const Status status =
-          recordProbe(tables(), commands, device().frame(), &query, 1, answers.buffer());
+          recordProbe(tables(), commands, &query, 1, answers.buffer());
       succeeded = status == Status::Ok;
       if (!succeeded) {
         EXPECT_EQ(status, Status::OutOfDeviceMemory) << message();
       }
       return true;
     });
-    collect(context(), device().frame().completed);
+    finishFrames(context());
     resourceReport(context(), &end);
     EXPECT_EQ(end.bytes, start.bytes) << n;
     EXPECT_EQ(end.buffers, start.buffers) << n;

@@ -27,21 +27,22 @@ TEST_F(StandardSkyTest, DestroyedInFlightLivesUntilTheFrameCompletes) {
   TargetDesc targetDesc;
   targetDesc.extent = {24, 16};
   Target target(device(), targetDesc);
-  const FrameInfo frame = device().frame();
   ResourceReport report;
+  const uint64_t frame = device().skipFrame();
+  ASSERT_EQ(advanceFrame(made, frame, frame - 1), Status::Ok);
   const Picture drawn = target.draw([&](VkCommandBuffer commands) {
-    const Status status = recordSky(view, commands, frame, baked, someDraw());
-    destroyView(view, frame);
-    destroyTables(baked, frame);
-    collect(made, frame.completed);
+    const Status status = recordSky(view, commands, baked, someDraw());
+    destroyView(view);
+    destroyTables(baked);
+    EXPECT_EQ(advanceFrame(made, frame, frame - 1), Status::Ok);
     resourceReport(made, &report);
     return status == Status::Ok;
   });
   EXPECT_GT(report.bytes, 0u);
   EXPECT_EQ(report.images, 4u);
-  EXPECT_EQ(device().frame().completed, frame.submitting);
+  EXPECT_EQ(device().frame(), frame + 1);
   EXPECT_EQ(drawn.data, picture(someDraw()).data);
-  collect(made, frame.submitting);
+  finishFrames(made);
   resourceReport(made, &report);
   EXPECT_EQ(report.bytes, 0u);
   EXPECT_EQ(report.images, 0u);
@@ -59,43 +60,41 @@ TEST_F(StandardSkyTest, BakesCanBeCancelled) {
   run([&](VkCommandBuffer commands) {
     BakeProgress progress;
     for (int i = 0; i < 4; ++i)
-      EXPECT_EQ(recordBake(half, commands, device().frame(), 500000, &progress), Status::Ok);
+      EXPECT_EQ(recordBake(half, commands, 500000, &progress), Status::Ok);
     EXPECT_FALSE(progress.done);
-    destroyTables(half, device().frame());
+    destroyTables(half);
     return true;
   });
-  collect(made, device().frame().completed);
+  finishFrames(made);
   ResourceReport report;
   resourceReport(made, &report);
   EXPECT_EQ(report.bytes, 0u);
-  destroyTables(nullptr, FrameInfo{});
+  destroyTables(nullptr);
 
   Tables* waiting = nullptr;
   ASSERT_EQ(createTables(made, preset("earth"), smallTables(), &waiting), Status::Ok);
-  destroyTables(waiting, FrameInfo{1000, 0});
+  destroyTables(waiting);
   destroyContext(made);
   EXPECT_TRUE(diagnostics().empty()) << lastDiagnostic();
 }
 
-// On a device of its own, whose validation hears of the leak as well.
-TEST_F(StandardSkyTest, ForgottenObjectsAreReported) {
+// On a device of its own, whose validation would report a leak.
+TEST_F(StandardSkyTest, ForgottenObjectsGoWithTheContext) {
   auto other = makeDevice();
   ASSERT_NE(other, nullptr);
-  const ContextDesc plain = contextDesc();
   ContextDesc desc = other->contextDesc();
-  desc.diagnostic = plain.diagnostic;
-  desc.user = plain.user;
+  desc.diagnostics = contextDesc().diagnostics;
   Context* made = nullptr;
   ASSERT_EQ(createContext(desc, &made), Status::Ok);
-  static View* forgotten = nullptr;  // So that a leak checker still finds what it holds.
+  Tables* baked = nullptr;
+  ASSERT_EQ(createTables(made, preset("earth"), smallTables(), &baked), Status::Ok);
+  View* forgotten = nullptr;
   ViewDesc viewDesc;
   viewDesc.solver = Solver::Standard;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   ASSERT_EQ(createView(made, viewDesc, &forgotten), Status::Ok);
-  EXPECT_TRUE(diagnostics().empty());
   destroyContext(made);
-  EXPECT_NE(lastDiagnostic().find("0 Tables and 1 View"), std::string::npos) << lastDiagnostic();
-  expectMessage("VUID-vkDestroyDevice-device-00378");
+  EXPECT_TRUE(diagnostics().empty()) << lastDiagnostic();
   other.reset();
 }
 
@@ -120,7 +119,7 @@ TEST_F(StandardSkyTest, UploadedTablesDrawTheSameBytes) {
         return recordTableReadback(baked, commands, id, bytes.buffer(), 0) == Status::Ok;
       });
       run([&](VkCommandBuffer commands) {
-        return recordTableUpload(uploaded, commands, device().frame(), id, bytes.buffer(), 0) ==
+        return recordTableUpload(uploaded, commands, id, bytes.buffer(), 0) ==
                Status::Ok;
       });
     }
@@ -135,8 +134,8 @@ TEST_F(StandardSkyTest, UploadedTablesDrawTheSameBytes) {
     View* view = nullptr;
     ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
     EXPECT_EQ(picture(view, uploaded, someDraw(), target).data, fromBake.data);
-    destroyView(view, FrameInfo{});
-    destroyTables(uploaded, FrameInfo{});
+    destroyView(view);
+    destroyTables(uploaded);
   }
   destroyContext(made);
 }
@@ -155,7 +154,7 @@ TEST_F(StandardSkyTest, ResourcesAreCounted) {
   EXPECT_EQ(report.buffers, 1u);
   EXPECT_EQ(report.dispatches, 0u);
   bakeAll(device(), baked);
-  collect(made, device().frame().completed);
+  finishFrames(made);
   resourceReport(made, &report);
   EXPECT_EQ(report.dispatches, 7u);  // T, dE 1, dS 1, and dL, dJ, dE, dS of order 2.
   EXPECT_EQ(report.images, 4u);
@@ -178,8 +177,8 @@ TEST_F(StandardSkyTest, ResourcesAreCounted) {
   picture(views[1], baked, someDraw(), target);
   resourceReport(made, &report);
   EXPECT_EQ(report.draws, 2u);
-  for (View* view : views) destroyView(view, FrameInfo{});
-  destroyTables(baked, FrameInfo{});
+  for (View* view : views) destroyView(view);
+  destroyTables(baked);
   resourceReport(made, &report);
   EXPECT_EQ(report.bytes + report.images + report.buffers, 0u);
   EXPECT_EQ(report.peakBytes, whileBaking);

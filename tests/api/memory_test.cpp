@@ -94,11 +94,8 @@ TEST_F(StandardSkyTest, HooksServeAllMemory) {
   host.device = &device();
   ContextDesc desc = contextDesc();
   Context* made = nullptr;
-  {
-    const MemoryHooks hooks = host.hooks();  // Copied: gone after the call.
-    desc.memory = &hooks;
-    ASSERT_EQ(createContext(desc, &made), Status::Ok);
-  }
+  desc.memory = host.hooks();
+  ASSERT_EQ(createContext(desc, &made), Status::Ok);
   Tables* baked = nullptr;
   ASSERT_EQ(createTables(made, preset("earth"), smallTables(), &baked), Status::Ok);
   const size_t whileBaking = host.alive.size();
@@ -107,14 +104,14 @@ TEST_F(StandardSkyTest, HooksServeAllMemory) {
   query.zenith = 1.0;
   EXPECT_EQ(probe(device(), baked, {query}).at(0).skyRadiance[1],
             probeAll({query}).at(0).skyRadiance[1]);
-  collect(made, device().frame().completed);
+  finishFrames(made);
   EXPECT_LT(host.alive.size(), whileBaking) << "the scratch block is still there";
   EXPECT_GE(host.allocations, 4);
   EXPECT_EQ(host.names.count("Alpenglow tables"), 1u);
   ResourceReport report;
   resourceReport(made, &report);
   EXPECT_GT(report.bytes, 0u);
-  destroyTables(baked, FrameInfo{});
+  destroyTables(baked);
   EXPECT_TRUE(host.alive.empty());
   resourceReport(made, &report);
   EXPECT_EQ(report.bytes, 0u);
@@ -124,9 +121,8 @@ TEST_F(StandardSkyTest, HooksServeAllMemory) {
 TEST_F(StandardSkyTest, RefusingHooksLeaveNothing) {
   Hooks host;
   host.device = &device();
-  const MemoryHooks hooks = host.hooks();
   ContextDesc desc = contextDesc();
-  desc.memory = &hooks;
+  desc.memory = host.hooks();
   Context* made = nullptr;
   ASSERT_EQ(createContext(desc, &made), Status::Ok);
   for (int n = 0; n < 3; ++n) {
@@ -211,9 +207,8 @@ struct Pool {
 TEST_F(StandardSkyTest, MappedRangesShareOneMemory) {
   Pool pool;
   pool.dedicated.device = &device();
-  const MemoryHooks hooks = pool.hooks();
   ContextDesc desc = contextDesc();
-  desc.memory = &hooks;
+  desc.memory = pool.hooks();
   Context* made = nullptr;
   ASSERT_EQ(createContext(desc, &made), Status::Ok);
   Tables* first = nullptr;
@@ -223,7 +218,7 @@ TEST_F(StandardSkyTest, MappedRangesShareOneMemory) {
   ASSERT_EQ(createTables(made, preset("earth"), smallTables(), &second), Status::Ok)
       << lastDiagnostic();
   EXPECT_EQ(pool.alive.size(), 2u);
-  destroyTables(first, FrameInfo{});
+  destroyTables(first);
   EXPECT_EQ(pool.alive.size(), 1u);
   // The second range and those to come are still mapped.
   bakeAll(device(), second);
@@ -232,7 +227,7 @@ TEST_F(StandardSkyTest, MappedRangesShareOneMemory) {
   EXPECT_EQ(probe(device(), second, {query}).at(0).skyRadiance[1],
             probeAll({query}).at(0).skyRadiance[1]);
   EXPECT_EQ(pool.mostAlive, 2u);
-  destroyTables(second, FrameInfo{});
+  destroyTables(second);
   destroyContext(made);
   EXPECT_TRUE(pool.alive.empty());
   EXPECT_TRUE(pool.dedicated.alive.empty());
@@ -304,8 +299,8 @@ TEST_F(StandardSkyTest, AllocationCallbacksArePaired) {
   ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
   EXPECT_EQ(probe(device(), baked, {ProbeQuery{}}).size(), 1u);
   EXPECT_GT(counter.alive, 10);  // Not every driver asks for every object.
-  destroyView(view, FrameInfo{});
-  destroyTables(baked, FrameInfo{});
+  destroyView(view);
+  destroyTables(baked);
   destroyContext(made);
   EXPECT_EQ(counter.alive, 0);
 }
@@ -333,7 +328,7 @@ TEST_F(StandardSkyTest, RecordingAllocatesNothing) {
           const int before = counter.total;
           newCalls = 0;
           counting = true;
-          const Status status = recordBake(baked, commands, bare->frame(), 1000000, &progress);
+          const Status status = recordBake(baked, commands, 1000000, &progress);
           counting = false;
           slices += last ? 0 : 1;
           allocations += last ? 0 : newCalls;
@@ -364,15 +359,15 @@ TEST_F(StandardSkyTest, RecordingAllocatesNothing) {
       const int before = counter.total;
       newCalls = 0;
       counting = true;
-      const Status status = recordSky(view, commands, bare->frame(), baked, draw);
+      const Status status = recordSky(view, commands, baked, draw);
       counting = false;
       EXPECT_EQ(newCalls, 0);
       EXPECT_EQ(counter.total, before);
       return status == Status::Ok;
     });
   }
-  destroyView(view, FrameInfo{});
-  destroyTables(baked, FrameInfo{});
+  destroyView(view);
+  destroyTables(baked);
   destroyContext(made);
   EXPECT_EQ(counter.alive, 0);
 }

@@ -44,7 +44,7 @@ class QueryTest : public StandardSkyTest {
     return tables;
   }
   void TearDown() override {
-    for (Tables* tables : made_) destroyTables(tables, device().frame());
+    for (Tables* tables : made_) destroyTables(tables);
     StandardSkyTest::TearDown();
   }
 
@@ -55,7 +55,10 @@ class QueryTest : public StandardSkyTest {
     finishFrames();
     return tables;
   }
-  void finishFrames() { collect(context(), device().frame().completed); }
+  void finishFrames() {
+    const uint64_t next = device().skipFrame();
+    EXPECT_EQ(advanceFrame(context(), next, next - 1), Status::Ok) << message();
+  }
   uint64_t buffers() {
     ResourceReport report;
     resourceReport(context(), &report);
@@ -208,7 +211,7 @@ TEST_F(QueryTest, UploadedTablesAnswerAsTheBakedOnesDo) {
       return recordTableReadback(baked, commands, id, buffer.buffer(), 0) == Status::Ok;
     });
     run([&](VkCommandBuffer commands) {
-      return recordTableUpload(uploaded, commands, device().frame(), id, buffer.buffer(), 0) ==
+      return recordTableUpload(uploaded, commands, id, buffer.buffer(), 0) ==
              Status::Ok;
     });
   }

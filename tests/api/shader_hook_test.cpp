@@ -42,13 +42,12 @@ class ShaderHookTest : public SkyTest {
   void SetUp() override {
     SkyTest::SetUp();
     ContextDesc desc = contextDesc();
-    const ShaderHook hook = replacement_.hook();
-    desc.shaders = &hook;  // Copied: it is gone when the first pipeline is made.
+    desc.shaders = replacement_.hook();
     ASSERT_EQ(createContext(desc, &hooked_), Status::Ok) << lastDiagnostic();
   }
   void TearDown() override {
-    for (View* view : views_) destroyView(view, device().frame());
-    for (Tables* tables : tables_) destroyTables(tables, device().frame());
+    for (View* view : views_) destroyView(view);
+    for (Tables* tables : tables_) destroyTables(tables);
     destroyContext(hooked_);
     SkyTest::TearDown();
   }
@@ -71,7 +70,7 @@ class ShaderHookTest : public SkyTest {
     Camera camera = cameraFromGeodetic(preset("earth"), 0.0, 0.0, 100.0, 0.0, 0.3, 0.0, 1.0);
     const SkyDraw sky = makeDraw(camera, {0.7071, 0.0, 0.7071}, target.extent);
     return Target(device(), target).draw([&](VkCommandBuffer commands) {
-      return recordSky(view, commands, device().frame(), tables, sky) == Status::Ok;
+      return recordSky(view, commands, tables, sky) == Status::Ok;
     });
   }
 

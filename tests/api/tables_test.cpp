@@ -164,8 +164,8 @@ TEST_F(TablesTest, ADescriptionIsCompletedOnceAndForAll) {
       EXPECT_TRUE(sameDesc(infoOf(resolved).desc, once)) << static_cast<uint32_t>(solver);
       for (uint32_t id = 0; id < kTableIdCount; ++id)
         EXPECT_EQ(imageOf(given, TableId(id)).bytes, imageOf(resolved, TableId(id)).bytes) << id;
-      destroyTables(given, FrameInfo{});
-      destroyTables(resolved, FrameInfo{});
+      destroyTables(given);
+      destroyTables(resolved);
     }
   }
   TableDesc standard;
@@ -191,17 +191,19 @@ TEST_F(TablesTest, StatesFollowTheBake) {
   BakeProgress progress;
   while (!progress.done) {
     run([&](VkCommandBuffer commands) {
-      lastFrame = device().frame().submitting;
-      return recordBake(tables, commands, device().frame(), 0, &progress) == Status::Ok;
+      lastFrame = device().frame();
+      EXPECT_EQ(advanceFrame(context(), lastFrame, lastFrame - 1), Status::Ok);
+      return recordBake(tables, commands, 0, &progress) == Status::Ok;
     });
     EXPECT_EQ(infoOf(tables).state,
               progress.done ? TablesState::Recorded : TablesState::Baking);
   }
-  collect(context(), lastFrame - 1);
+  const uint64_t next = device().frame();
+  ASSERT_EQ(advanceFrame(context(), next, lastFrame - 1), Status::Ok);
   EXPECT_EQ(infoOf(tables).state, TablesState::Recorded);
-  collect(context(), lastFrame);
+  ASSERT_EQ(advanceFrame(context(), next, lastFrame), Status::Ok);
   EXPECT_EQ(infoOf(tables).state, TablesState::Complete);
-  destroyTables(tables, device().frame());
+  destroyTables(tables);
 }
 
 TEST_F(TablesTest, ImagesAreDescribedByTheirId) {
@@ -230,7 +232,7 @@ TEST_F(TablesTest, ImagesAreDescribedByTheirId) {
   }
   EXPECT_EQ(info.images[kTableOpticalDepth].extent.width, info.desc.sizes.depthMu);
   EXPECT_STREQ(info.images[kTableSource].name, "source");
-  destroyTables(tables, device().frame());
+  destroyTables(tables);
 }
 
 // A queue that has nothing but compute takes no other stage; validation hears of it.
@@ -262,14 +264,14 @@ TEST_F(TablesTest, OnlyTheReadersThatThereAreWait) {
     const ProbeQuery query;
     const bool computes = (expected & VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT) != 0;
     run([&](VkCommandBuffer commands) {
-      EXPECT_EQ(recordProbe(tables, commands, device().frame(), &query, 1, buffer.buffer()),
+      EXPECT_EQ(recordProbe(tables, commands, &query, 1, buffer.buffer()),
                 computes ? Status::Ok : Status::InvalidArgument);
       return true;
     });
     if (!computes) {
       EXPECT_TRUE(hasAll(lastDiagnostic(), "recordProbe|readerStages|0x80")) << lastDiagnostic();
     }
-    destroyTables(tables, device().frame());
+    destroyTables(tables);
   }
   destroyContext(made);
 }

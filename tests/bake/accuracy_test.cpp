@@ -27,7 +27,7 @@ constexpr Band kBands[] = {{"day", 10.0, 90.0, 0.065},
 
 Spectrum referenceRadiance(const Parameters& p, const ProbeQuery& q) {
   ReferenceAnswer answer;
-  EXPECT_EQ(referenceSingleScattering(p, q, &answer), Status::Ok);
+  EXPECT_EQ(referenceSingleScattering(p, q, &answer, {}), Status::Ok);
   return answer.value.skyRadiance;
 }
 
@@ -75,7 +75,7 @@ class AccuracyTest : public BakeTest {
       const std::vector<ProbeAnswer> answers = probe(tables, queries);
       for (size_t i = 0; i < queries.size(); ++i) {
         ReferenceAnswer truth;
-        ASSERT_EQ(referenceSingleScattering(p, queries[i], &truth), Status::Ok);
+        ASSERT_EQ(referenceSingleScattering(p, queries[i], &truth, {}), Status::Ok);
         double worst = 0.0, worstT = 0.0;
         for (uint32_t c = 0; c < kSpectrumSize; ++c) {
           const double expected = truth.value.skyRadiance[c];
@@ -121,7 +121,7 @@ TEST_F(AccuracyTest, SegmentsByLength) {
       const std::vector<ProbeAnswer> answers = probe(tables, queries);
       for (size_t i = 0; i < queries.size(); ++i) {
         ReferenceAnswer truth;
-        ASSERT_EQ(referenceSingleScattering(p, queries[i], &truth), Status::Ok);
+        ASSERT_EQ(referenceSingleScattering(p, queries[i], &truth, {}), Status::Ok);
         double worst = 0.0;
         for (uint32_t k = 0; k < kSpectrumSize; ++k) {
           const double expected = truth.value.skyRadiance[k];

@@ -13,14 +13,14 @@ void BakeTest::SetUp() {
 }
 
 void BakeTest::TearDown() {
-  for (Tables* tables : tables_) destroyTables(tables, device().frame());
+  for (Tables* tables : tables_) destroyTables(tables);
   destroyContext(context_);
   DeviceTest::TearDown();
 }
 
 Parameters BakeTest::preset(const char* name) {
   Parameters parameters;
-  EXPECT_EQ(findPreset(name, &parameters), Status::Ok) << name;
+  EXPECT_EQ(findPreset(name, &parameters, {}), Status::Ok) << name;
   return parameters;
 }
 
@@ -37,7 +37,7 @@ void BakeTest::bake(Tables* tables, uint64_t budget, const std::string& until) {
   bool recorded = true;
   while (recorded && !progress.done && !(progress.passFinished && until == progress.pass)) {
     run([&](VkCommandBuffer commands) {
-      recorded = recordBake(tables, commands, device().frame(), budget, &progress) == Status::Ok;
+      recorded = recordBake(tables, commands, budget, &progress) == Status::Ok;
       return recorded;
     });
   }
@@ -94,7 +94,7 @@ void BakeTest::upload(Tables* tables, TableId id, const CpuTable& table) {
   ASSERT_NE(buffer.data(), nullptr) << error;
   std::copy(table.bytes.begin(), table.bytes.end(), static_cast<uint8_t*>(buffer.data()));
   run([&](VkCommandBuffer commands) {
-    return recordTableUpload(tables, commands, device().frame(), id, buffer.buffer(), 0) ==
+    return recordTableUpload(tables, commands, id, buffer.buffer(), 0) ==
            Status::Ok;
   });
 }
@@ -113,7 +113,7 @@ std::vector<ProbeAnswer> BakeTest::probe(Tables* tables, const std::vector<Probe
       count * kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &error);
   EXPECT_NE(buffer.data(), nullptr) << error;
   run([&](VkCommandBuffer commands) {
-    return recordProbe(tables, commands, device().frame(), queries.data(), count,
+    return recordProbe(tables, commands, queries.data(), count,
                        buffer.buffer()) == Status::Ok;
   });
   EXPECT_EQ(answerQueries(tables, queries.data(), count, buffer.data(), answers.data()), Status::Ok);

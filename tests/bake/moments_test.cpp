@@ -4,6 +4,7 @@
 #include <random>
 
 #include "tests/bake/bake_fixture.h"
+#include "tests/model/heard.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -38,7 +39,7 @@ TEST_F(MomentsTest, TheBytesDoNotDependOnTheBudget) {
   BakeProgress progress;
   while (!progress.done && !HasFailure()) {
     run([&](VkCommandBuffer commands) {
-      return recordBake(tables, commands, device().frame(), random() % 100'000, &progress) ==
+      return recordBake(tables, commands, random() % 100'000, &progress) ==
              Status::Ok;
     });
   }
@@ -52,7 +53,7 @@ TEST_F(MomentsTest, ThePassesAreNamedAndCounted) {
   BakeProgress progress;
   while (!progress.done && !HasFailure()) {
     run([&](VkCommandBuffer commands) {
-      return recordBake(tables, commands, device().frame(), 0, &progress) == Status::Ok;
+      return recordBake(tables, commands, 0, &progress) == Status::Ok;
     });
     done += progress.unitsRecorded;
     EXPECT_TRUE(progress.passFinished);
@@ -66,19 +67,19 @@ TEST_F(MomentsTest, ThePassesAreNamedAndCounted) {
 }
 
 TEST_F(MomentsTest, EveryPresetAndFormatIsFinite) {
-  for (uint32_t i = 0; i < presetCount(); ++i) {
+  for (const Preset& listed : testing::allPresets()) {
     for (TableFormat format : {TableFormat::Half, TableFormat::Float}) {
       TableDesc desc = tinyDesc(0);
       desc.format = format;
-      const TableCopies copies = readAll(bakeTables(preset(presetName(i)), desc));
+      const TableCopies copies = readAll(bakeTables(preset(listed.name), desc));
       for (const auto& [id, table] : copies) {
         bool good = true, lit = false;
         for (float v : table.values) {
           good = good && std::isfinite(v) && (v >= 0.0f || id == kTableMoments);
           lit = lit || v > 0.0f;
         }
-        EXPECT_TRUE(good) << presetName(i) << " " << table.info.name;
-        EXPECT_TRUE(lit) << presetName(i) << " " << table.info.name << " is all zero";
+        EXPECT_TRUE(good) << listed.name << " " << table.info.name;
+        EXPECT_TRUE(lit) << listed.name << " " << table.info.name << " is all zero";
       }
     }
   }
@@ -167,7 +168,7 @@ TEST_F(MomentsTest, ScratchIsFreedWhenTheLastFrameCompletes) {
   Tables* tables = makeTables(preset("earth"), tinyDesc(4));
   resourceReport(context(), &before);
   bake(tables);
-  collect(context(), device().frame().completed);
+  finishFrames(context());
   resourceReport(context(), &after);
   EXPECT_LT(after.bytes, before.bytes);
   EXPECT_EQ(after.images, 3u);

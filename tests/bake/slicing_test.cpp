@@ -4,6 +4,7 @@
 #include <random>
 
 #include "tests/bake/bake_fixture.h"
+#include "tests/model/heard.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -48,7 +49,7 @@ TEST_F(SlicingTest, TheBytesDoNotDependOnTheBudget) {
   BakeProgress progress;
   while (!progress.done && !HasFailure()) {
     run([&](VkCommandBuffer commands) {
-      return recordBake(tables, commands, device().frame(), random() % 500'000, &progress) ==
+      return recordBake(tables, commands, random() % 500'000, &progress) ==
              Status::Ok;
     });
   }
@@ -64,7 +65,7 @@ TEST_F(SlicingTest, ACallStaysInItsPassAndItsBudget) {
   std::string passes;
   while (!progress.done && !HasFailure()) {
     run([&](VkCommandBuffer commands) {
-      return recordBake(tables, commands, device().frame(), kBudget, &progress) == Status::Ok;
+      return recordBake(tables, commands, kBudget, &progress) == Status::Ok;
     });
     ++calls;
     done += progress.unitsRecorded;
@@ -80,30 +81,30 @@ TEST_F(SlicingTest, ACallStaysInItsPassAndItsBudget) {
   EXPECT_EQ(passes, "T, dE 1, dS 1, dL 2, dJ 2, dE 2, dS 2, dL 3, dJ 3, dE 3, dS 3, ");
   // One call more does nothing, and says that all is done.
   run([&](VkCommandBuffer commands) {
-    return recordBake(tables, commands, device().frame(), 0, &progress) == Status::Ok;
+    return recordBake(tables, commands, 0, &progress) == Status::Ok;
   });
   EXPECT_TRUE(progress.done);
   EXPECT_EQ(progress.unitsRecorded, 0u);
 }
 
 TEST_F(SlicingTest, EveryPresetFormatAndStorageIsFiniteAndNotNegative) {
-  for (uint32_t i = 0; i < presetCount(); ++i) {
+  for (const Preset& listed : testing::allPresets()) {
     for (TableFormat format : {TableFormat::Half, TableFormat::Float}) {
       for (MieStorage mie : {MieStorage::Full, MieStorage::Packed}) {
         TableDesc desc = tinyDesc();
         desc.format = format;
         desc.mie = mie;
         const TableCopies copies =
-            readAll(bakeTables(preset(presetName(i)), desc), mie == MieStorage::Packed);
+            readAll(bakeTables(preset(listed.name), desc), mie == MieStorage::Packed);
         for (const auto& [id, table] : copies) {
           bool good = true, lit = false;
           for (float v : table.values) {
             good = good && std::isfinite(v) && v >= 0.0f;
             lit = lit || v > 0.0f;
           }
-          EXPECT_TRUE(good) << presetName(i) << " " << table.info.name;
-          if (id != kTableSingleMie || preset(presetName(i)).mie.present) {
-            EXPECT_TRUE(lit) << presetName(i) << " " << table.info.name << " is all zero";
+          EXPECT_TRUE(good) << listed.name << " " << table.info.name;
+          if (id != kTableSingleMie || preset(listed.name).mie.present) {
+            EXPECT_TRUE(lit) << listed.name << " " << table.info.name << " is all zero";
           }
         }
       }
@@ -155,7 +156,7 @@ TEST_F(SlicingTest, ScratchIsFreedWhenTheLastFrameCompletes) {
   Tables* tables = makeTables(preset("earth"), tinyDesc());
   resourceReport(context(), &before);
   bake(tables);
-  collect(context(), device().frame().completed);
+  finishFrames(context());
   resourceReport(context(), &after);
   EXPECT_LT(after.bytes, before.bytes);
   EXPECT_EQ(after.images, before.images - 5);  // dE, dS, dJ, dL and its Mie part

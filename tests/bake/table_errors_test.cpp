@@ -96,7 +96,7 @@ TEST_F(TableErrorsTest, TablesThatAreNotReadyAreNotReadOrProbed) {
     EXPECT_NE(lastDiagnostic().find("keepOrders"), std::string::npos) << lastDiagnostic();
     const ProbeQuery query;
     const size_t sentences = diagnostics().size();
-    EXPECT_EQ(recordProbe(tables, commands, device().frame(), &query, 1, buffer.buffer()),
+    EXPECT_EQ(recordProbe(tables, commands, &query, 1, buffer.buffer()),
               Status::NotReady);
     EXPECT_EQ(diagnostics().size(), sentences) << lastDiagnostic();  // It is no error.
     EXPECT_EQ(recordTableReadback(tables, commands, kTableScattering, VK_NULL_HANDLE, 0),
@@ -123,17 +123,22 @@ TEST_F(TableErrorsTest, OrderTablesAreReadOnlyBetweenOrders) {
   EXPECT_EQ(status(kTableScattering), Status::Ok);
 }
 
-TEST_F(TableErrorsTest, AFrameThatHasCompletedIsRefused) {
-  TableDesc desc = standardDesc(kSmallSizes);
-  Tables* tables = makeTables(preset("earth"), desc);
-  run([&](VkCommandBuffer commands) {
-    BakeProgress progress;
-    EXPECT_EQ(recordBake(tables, commands, FrameInfo{}, 0, &progress), Status::InvalidArgument);
-    EXPECT_EQ(recordBake(tables, commands, FrameInfo{7, 7}, 0, &progress), Status::InvalidArgument);
-    EXPECT_NE(lastDiagnostic().find("submitting 7, completed 7"), std::string::npos)
-        << lastDiagnostic();
-    return true;
-  });
+TEST_F(TableErrorsTest, FrameNumbersThatCannotBeAreRefused) {
+  const uint64_t next = device().skipFrame();
+  ASSERT_EQ(advanceFrame(context(), next, next - 1), Status::Ok);
+  const auto refuses = [&](uint64_t submitting, uint64_t completed, const char* part) {
+    EXPECT_EQ(advanceFrame(context(), submitting, completed), Status::InvalidArgument);
+    EXPECT_NE(lastDiagnostic().find(part), std::string::npos) << lastDiagnostic();
+  };
+  refuses(0, 0, "counts from 1");
+  refuses(next, next + 1, "before it is recorded");
+  refuses(next - 1, next - 1, "neither number falls");
+  refuses(next, next - 2, "neither number falls");
+  EXPECT_EQ(advanceFrame(nullptr, 1, 0), Status::InvalidArgument);
+  EXPECT_EQ(abandonFrame(nullptr, 1), Status::InvalidArgument);
+  EXPECT_EQ(abandonFrame(context(), next - 1), Status::InvalidArgument);
+  EXPECT_NE(lastDiagnostic().find("abandonFrame got frame"), std::string::npos);
+  EXPECT_EQ(abandonFrame(context(), next + 1), Status::InvalidArgument);
 }
 
 TEST_F(TableErrorsTest, WrongQueriesAreRefusedByIndexAndField) {
@@ -147,12 +152,12 @@ TEST_F(TableErrorsTest, WrongQueriesAreRefusedByIndexAndField) {
   queries[1].zenith = 4.0;
   run([&](VkCommandBuffer commands) {
     EXPECT_EQ(
-        recordProbe(tables, commands, device().frame(), queries, 2, buffer.buffer()),
+        recordProbe(tables, commands, queries, 2, buffer.buffer()),
         Status::InvalidArgument);
     EXPECT_NE(lastDiagnostic().find("ProbeQuery 1 has zenith = 4"), std::string::npos)
         << lastDiagnostic();
     EXPECT_EQ(
-        recordProbe(tables, commands, device().frame(), queries, 0, buffer.buffer()),
+        recordProbe(tables, commands, queries, 0, buffer.buffer()),
         Status::InvalidArgument);
     return true;
   });

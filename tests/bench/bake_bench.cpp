@@ -32,7 +32,7 @@ class BakeBench : public BakeTest {
     while (!progress.done && !HasFailure()) {
       const double start = userSeconds();
       run([&](VkCommandBuffer commands) {
-        return recordBake(tables, commands, device().frame(), 0, &progress) == Status::Ok;
+        return recordBake(tables, commands, 0, &progress) == Status::Ok;
       });
       seconds[progress.pass] += userSeconds() - start;
     }
@@ -48,7 +48,7 @@ class BakeBench : public BakeTest {
   Cost measure(const char* name, const TableDesc& desc, int runs) {
     Cost cost;
     for (int i = 0; i < runs; ++i) {
-      collect(context(), device().frame().completed);
+      finishFrames(context());
       const uint64_t before = bytes();
       Tables* tables = nullptr;
       EXPECT_EQ(createTables(context(), preset("earth"), desc, &tables), Status::Ok)
@@ -62,9 +62,9 @@ class BakeBench : public BakeTest {
         cost.cpu_s = seconds;
         cost.passes = passes;
       }
-      collect(context(), device().frame().completed);
+      finishFrames(context());
       cost.tableBytes = bytes() - before;
-      destroyTables(tables, FrameInfo{});  // Every submit has been waited for.
+      destroyTables(tables);  // Every submit has been waited for.
     }
     std::printf("%-28s %8.2f cpu-s  %6.2f MB tables  %7.2f MB at the peak\n", name, cost.cpu_s,
                 1e-6 * double(cost.tableBytes), 1e-6 * double(cost.peakBytes));

@@ -39,7 +39,7 @@ class DomainBench : public TruthTest {
 
  private:
   uint64_t bytesNow() {
-    collect(context(), device().frame().completed);
+    finishFrames(context());
     ResourceReport report;
     resourceReport(context(), &report);
     return report.bytes;

@@ -39,7 +39,7 @@ TableSizes sizesOf(const Parameters& parameters, Quality quality) {
 class EffectsBench : public ShaftTest {
  protected:
   double bytes() {
-    collect(context(), ~uint64_t{0} >> 1);
+    finishFrames(context());
     ResourceReport report;
     resourceReport(context(), &report);
     return double(report.bytes);
@@ -111,7 +111,7 @@ TEST_F(EffectsBench, WhatEachSaves) {
   for (EffectCase& each : cases) make(&each);
   for (int round = 0; round < 4; ++round) {
     for (EffectCase& each : cases) {
-      if (round > 0) destroyTables(bakeOnce(&each), FrameInfo{});
+      if (round > 0) destroyTables(bakeOnce(&each));
       slices(each.sky, each.tables, &each.slice_s);
       slices(each.air, each.tables, &each.air_s);
     }
@@ -123,7 +123,7 @@ TEST_F(EffectsBench, WhatEachSaves) {
     std::printf("| %s | %.2f | %.2f | %.2f | %.1f | %.2f | %.1f | %.1f |\n", each.name, each.bake_s,
                 1e-6 * each.tableBytes, 1e-6 * each.bakeBytes, 1e3 * each.slice_s,
                 1e-6 * each.sliceBytes, 1e3 * each.air_s, 1e-6 * each.airBytes);
-    destroyTables(each.tables, FrameInfo{});
+    destroyTables(each.tables);
   }
   const EffectCase &whole = cases[0], &clear = cases[3], &single = cases[5], &inside = cases[9];
   EXPECT_LT(cases[2].slice_s, whole.slice_s);

@@ -22,12 +22,12 @@ class ParetoBench : public TruthTest {
     desc.quality = level.quality;
     bakeTables(set.parameters, desc);
     ResourceReport before, after;
-    collect(context(), device().frame().completed);
+    finishFrames(context());
     resourceReport(context(), &before);
     const double start = userSeconds();
     Tables* tables = bakeTables(set.parameters, desc);
     const double cpu_s = userSeconds() - start;
-    collect(context(), device().frame().completed);
+    finishFrames(context());
     resourceReport(context(), &after);
     const TruthErrors errors = errorsOf(set, tables);
     std::printf("| `%s` | `%s` | %.2f | %.1f |", set.name.c_str(), level.name, cpu_s,

@@ -58,7 +58,7 @@ TEST_F(Program, ASceneFileIsAnAtmosphereToo) {
   const io::Result<io::TableFile> file = io::readTableFile(folder_ / "t.exr");
   ASSERT_TRUE(file) << file.error;
   Parameters mars;
-  ASSERT_EQ(findPreset("mars", &mars), Status::Ok);
+  ASSERT_EQ(findPreset("mars", &mars, {}), Status::Ok);
   EXPECT_EQ(io::firstDifference(file->parameters, mars), "");
   EXPECT_EQ(file->desc.orders, 3u);
   expectGood(bakeOf(scene, folder_ / "t.exr"));  // Options beat the scene.

@@ -127,13 +127,13 @@ TemporaryFolder* Stars::tables_ = nullptr;
 
 Spectrum transmittance(double altitude_m, double elevation_deg) {
   Parameters earth;
-  EXPECT_EQ(findPreset("earth", &earth), Status::Ok);
+  EXPECT_EQ(findPreset("earth", &earth, {}), Status::Ok);
   ProbeQuery query;
   query.altitude_m = altitude_m;
   query.zenith = (90.0 - elevation_deg) / kDegrees;
   query.sunZenith = 0.5 * kPi;
   ReferenceAnswer answer;
-  EXPECT_EQ(referenceSingleScattering(earth, query, &answer), Status::Ok);
+  EXPECT_EQ(referenceSingleScattering(earth, query, &answer, {}), Status::Ok);
   return answer.value.transmittance;
 }
 
@@ -243,7 +243,7 @@ struct Seen {
 
 std::vector<Seen> starsOf(const LinearImage& with, const LinearImage& without, const Shot& shot) {
   Parameters earth;
-  EXPECT_EQ(findPreset("earth", &earth), Status::Ok);
+  EXPECT_EQ(findPreset("earth", &earth, {}), Status::Ok);
   SkyDraw draw;
   draw.camera = cameraFromGeodetic(earth, kLatitude / kDegrees, 0.0, shot.altitude_m,
                                    shot.aim.azimuth_deg / kDegrees,

@@ -20,7 +20,7 @@ class TableChoice : public Program {
   /// A table file for the Earth whose texels are zeros.
   std::string tables(TableDesc desc) {
     io::TableFile file;
-    EXPECT_EQ(findPreset("earth", &file.parameters), Status::Ok);
+    EXPECT_EQ(findPreset("earth", &file.parameters, {}), Status::Ok);
     file.desc = io::resolved(desc, file.parameters);
     file.parts = io::expectedParts(file.desc);
     for (io::TablePart& part : file.parts) {

@@ -74,8 +74,8 @@ class EffectsTest : public SkyTest {
     const double most = difference(whole, part);
     std::printf("without 0x%02x: %.1e\n", without, most);
     EXPECT_LE(most, error) << without;
-    destroyTables(whole, FrameInfo{});
-    destroyTables(part, FrameInfo{});
+    destroyTables(whole);
+    destroyTables(part);
   }
 };
 
@@ -104,15 +104,15 @@ TEST_F(EffectsTest, ImagesThatStayAreThoseOfWhatIsOn) {
     const ResourceReport before = report();
     Tables* made = bake(preset("earth"), each.without);
     ASSERT_NE(made, nullptr);
-    collect(context(), ~uint64_t{0} >> 1);
+    finishFrames(context());
     EXPECT_EQ(report().images - before.images, each.images) << each.without;
     const bool multiple = (each.without & kMultiple) == 0;
     EXPECT_EQ(imageOf(made, kTableMoments).name != nullptr, multiple);
     const bool source = multiple && (each.without & kMie) == 0;
     EXPECT_EQ(imageOf(made, kTableSource).name != nullptr, source);
     EXPECT_FALSE(probeAll(queries(), made).empty());
-    destroyTables(made, FrameInfo{});
-    collect(context(), ~uint64_t{0} >> 1);
+    destroyTables(made);
+    finishFrames(context());
     EXPECT_EQ(report().images, before.images);
   }
 }

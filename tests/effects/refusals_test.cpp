@@ -26,7 +26,7 @@ class EffectRefusalsTest : public ShaftTest {
 
   void expectSkyRefused(View* view, const Tables* tables, const SkyDraw& draw, const char* parts) {
     run([&](VkCommandBuffer commands) {
-      expectRefused(recordSky(view, commands, device().frame(), tables, draw), parts);
+      expectRefused(recordSky(view, commands, tables, draw), parts);
       return true;
     });
   }
@@ -95,8 +95,8 @@ TEST_F(EffectRefusalsTest, SlicesAndAirAreRefusedFromOutside) {
   run([&](VkCommandBuffer c) {
     const SkyDraw outside = drawAt(300e3, -60);
     const char* const sentence = "300000 m high|Effect::SpaceViews";
-    expectRefused(recordSkySlice(view, c, device().frame(), baked, outside), sentence);
-    expectRefused(recordAir(view, c, device().frame(), baked, outside), sentence);
+    expectRefused(recordSkySlice(view, c, baked, outside), sentence);
+    expectRefused(recordAir(view, c, baked, outside), sentence);
     return true;
   });
   resourceReport(context(), &end);
@@ -113,8 +113,8 @@ TEST_F(EffectRefusalsTest, AlwaysSlicedWantsASliceOfThisDraw) {
   ResourceReport start, end;
   const auto refuseBoth = [&](const SkyDraw& draw) {
     run([&](VkCommandBuffer c) {
-      expectRefused(recordSky(view, c, device().frame(), baked, draw), "recordSky|alwaysSliced");
-      expectRefused(recordAir(view, c, device().frame(), baked, draw), "recordAir|alwaysSliced");
+      expectRefused(recordSky(view, c, baked, draw), "recordSky|alwaysSliced");
+      expectRefused(recordAir(view, c, baked, draw), "recordAir|alwaysSliced");
       return true;
     });
   };
@@ -141,7 +141,7 @@ TEST_F(EffectRefusalsTest, ViewsAndTablesAreWithoutTheSame) {
   EXPECT_EQ(badValue(picture(part, clear, drawAt(500, 40))), "");
   View* const air = makeView(sceneDesc(kViewEffects));
   run([&](VkCommandBuffer c) {
-    expectRefused(recordAir(air, c, device().frame(), clear, drawAt(500, 0)), "0x2|must agree");
+    expectRefused(recordAir(air, c, clear, drawAt(500, 0)), "0x2|must agree");
     return true;
   });
   ViewDesc sliced = without(kViewEffects);
@@ -151,11 +151,11 @@ TEST_F(EffectRefusalsTest, ViewsAndTablesAreWithoutTheSame) {
   sliced.without = kMie | kViewEffects;
   View* const slicedPart = makeView(sliced);
   run([&](VkCommandBuffer c) {
-    expectRefused(recordSkySlice(slicedPart, c, device().frame(), baked, drawAt(500, 0)),
+    expectRefused(recordSkySlice(slicedPart, c, baked, drawAt(500, 0)),
                   "0x0|must agree");
     return true;
   });
-  destroyTables(clear, FrameInfo{});
+  destroyTables(clear);
 }
 
 TEST_F(EffectRefusalsTest, DescriptionsThatMakeNoSense) {
@@ -202,8 +202,8 @@ TEST_F(EffectRefusalsTest, ShaftsAreWithoutWhatTheirViewIs) {
   same.shafts = shafts;
   View* made = nullptr;
   EXPECT_EQ(createView(context(), same, &made), Status::Ok) << message();
-  destroyView(made, FrameInfo{});
-  destroyShafts(shafts, FrameInfo{});
+  destroyView(made);
+  destroyShafts(shafts);
   desc.without = kAir;
   expectRefused(createShafts(context(), desc, &shafts), "ShaftsDesc::without is 0x100");
 }

@@ -75,7 +75,7 @@ TEST_F(EffectSceneTest, ClearAirIsTheSameWithoutAerosols) {
     std::printf("without aerosols, %s: %.2e\n", sliced ? "sliced" : "integrated", most);
     EXPECT_LT(most, 1e-5);
   }
-  destroyTables(part, FrameInfo{});
+  destroyTables(part);
 }
 
 TEST_F(EffectSceneTest, FromInsideNothingIsMissedWithoutSpace) {

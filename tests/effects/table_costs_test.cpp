@@ -50,7 +50,7 @@ class TableCostsTest : public DeviceTest {
     Context* context = nullptr;
     EXPECT_EQ(createContext(contextDesc(), &context), Status::Ok) << lastDiagnostic();
     const auto report = [&] {
-      collect(context, ~uint64_t{0} >> 1);
+      finishFrames(context);
       ResourceReport now;
       resourceReport(context, &now);
       return now;
@@ -69,7 +69,7 @@ class TableCostsTest : public DeviceTest {
     const ResourceReport end = report();
     EXPECT_EQ(end.pipelines, made.pipelines) << without;
     EXPECT_EQ(end.draws, start.draws) << without;
-    destroyTables(tables, FrameInfo{});
+    destroyTables(tables);
     EXPECT_EQ(report().bytes, start.bytes) << without;
     destroyContext(context);
     return {made.pipelines - start.pipelines,

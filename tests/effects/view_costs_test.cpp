@@ -26,7 +26,7 @@ struct Added {
 class ViewCostsTest : public ShaftTest {
  protected:
   static ResourceReport reportOf(Context* context) {
-    collect(context, ~uint64_t{0} >> 1);
+    finishFrames(context);
     ResourceReport now;
     resourceReport(context, &now);
     return now;
@@ -59,8 +59,8 @@ class ViewCostsTest : public ShaftTest {
     EXPECT_EQ(told.pipelines, expected.pipelines) << desc.without;
     EXPECT_EQ(told.images, expected.images) << desc.without;
     EXPECT_EQ(told.bytes, expected.bytes) << desc.without;
-    destroyView(made, FrameInfo{});
-    destroyTables(tables, FrameInfo{});
+    destroyView(made);
+    destroyTables(tables);
     destroyContext(own);
   }
 
@@ -160,8 +160,8 @@ TEST_F(ViewCostsTest, ShaftsAreAnObjectOfTheirOwn) {
   EXPECT_EQ(seen.pipelines - made.pipelines, 2u) << "Sky and air.";
   EXPECT_EQ(seen.images, made.images);
   EXPECT_EQ(seen.bytes, made.bytes);
-  destroyView(shaded, FrameInfo{});
-  destroyShafts(shafts, FrameInfo{});
+  destroyView(shaded);
+  destroyShafts(shafts);
   EXPECT_EQ(reportOf(own).images, start.images);
   EXPECT_EQ(reportOf(own).bytes, start.bytes);
   destroyContext(own);

@@ -51,7 +51,7 @@ std::unique_ptr<headless::Device> createDevice(headless::RequirementsFn requirem
 Status everyFeature(PFN_vkGetInstanceProcAddr, VkInstance, VkPhysicalDevice, Requirements* out,
                     std::string*) {
   out->apiVersion = VK_API_VERSION_1_3;
-  out->synchronization2 = out->dynamicRendering = true;
+  out->deviceFeatures = kFeatureSynchronization2 | kFeatureDynamicRendering;
   out->features.dualSrcBlend = out->features.geometryShader = VK_TRUE;
   out->features.depthClamp = out->features.shaderClipDistance = VK_TRUE;
   out->features.independentBlend = VK_TRUE;
@@ -109,8 +109,8 @@ headless::Device& DeviceTest::device() { return *sharedDevice(); }
 
 ContextDesc DeviceTest::contextDesc() {
   ContextDesc desc = device().contextDesc();
-  desc.user = &diagnostics_;
-  desc.diagnostic = [](void* user, const Diagnostic& diagnostic) {
+  desc.diagnostics.user = &diagnostics_;
+  desc.diagnostics.report = [](void* user, const Diagnostic& diagnostic) {
     static_cast<std::vector<std::string>*>(user)->emplace_back(diagnostic.message);
   };
   return desc;

@@ -30,6 +30,12 @@ class DeviceTest : public ::testing::Test {
   /// Records, submits and waits; fails the test when that fails.
   void run(const std::function<bool(VkCommandBuffer)>& record);
 
+  /// All that was recorded has completed: frees what objects of the context left behind.
+  void finishFrames(Context* context) {
+    const uint64_t next = device().skipFrame();
+    EXPECT_EQ(advanceFrame(context, next, next - 1), Status::Ok) << lastDiagnostic();
+  }
+
   /// What came to the callback of contextDesc(), oldest first.
   const std::vector<std::string>& diagnostics() const { return diagnostics_; }
   const std::string& lastDiagnostic() const;

@@ -9,7 +9,8 @@ using namespace engine;
 void GpuTest::SetUp() {
   DeviceTest::SetUp();
   ASSERT_FALSE(HasFatalFailure());
-  ASSERT_EQ(engine::Device::create(deviceDesc(contextDesc()), &engineDevice_), Status::Ok) << lastDiagnostic();
+  ASSERT_EQ(engine::Device::create(deviceDesc(contextDesc()), &engineDevice_), Status::Ok)
+      << lastDiagnostic();
 }
 
 void GpuTest::TearDown() {
@@ -112,8 +113,8 @@ void GpuTest::copyBack(VkCommandBuffer commandBuffer, engine::Image& image, uint
 }
 
 engine::FeatureSet featureSet(const Requirements& requirements) {
-  return {requirements.apiVersion, requirements.synchronization2, requirements.dynamicRendering,
-          requirements.features};
+  return {requirements.apiVersion, (requirements.deviceFeatures & kFeatureSynchronization2) != 0,
+          (requirements.deviceFeatures & kFeatureDynamicRendering) != 0, requirements.features};
 }
 
 engine::DeviceDesc deviceDesc(const ContextDesc& desc) {
@@ -125,8 +126,8 @@ engine::DeviceDesc deviceDesc(const ContextDesc& desc) {
   device.enabled = featureSet(desc.enabled);
   device.queueFamilies = desc.queueFamilies;
   device.queueFamilyCount = desc.queueFamilyCount;
-  device.diagnostic = desc.diagnostic;
-  device.user = desc.user;
+  device.diagnostic = desc.diagnostics.report;
+  device.user = desc.diagnostics.user;
   device.debugNames = desc.debugNames;
   return device;
 }

@@ -325,13 +325,13 @@ TEST_F(GpuTest, DestructionWaitsForTheFrameThatUsesIt) {
     dispatch(commands, pass, image);
     // The owner lets go while the command buffer that uses it isn't even submitted. A collect now
     // must leave it alone, or validation reports a destroyed object in the command buffer.
-    deferImage(engineDevice(), device().frame().submitting, &image);
-    deferBlock(engineDevice(), device().frame().submitting, &block);
-    engineDevice().deletions().collect(device().frame().completed);
+    deferImage(engineDevice(), device().frame(), &image);
+    deferBlock(engineDevice(), device().frame(), &block);
+    engineDevice().deletions().collect(device().frame() - 1);
     EXPECT_EQ(counters.images, 1u);
     return true;
   });
-  engineDevice().deletions().collect(device().frame().completed);
+  engineDevice().deletions().collect(device().frame() - 1);
   EXPECT_EQ(counters.images, 0u);
   EXPECT_EQ(counters.bytes, 0u);
 }

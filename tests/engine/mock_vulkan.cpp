@@ -189,6 +189,11 @@ void getPhysicalDeviceFeatures2(VkPhysicalDevice, VkPhysicalDeviceFeatures2* out
   }
 }
 
+VkResult enumerateInstanceVersion(uint32_t* version) {
+  *version = g_current->loaderVersion;
+  return VK_SUCCESS;
+}
+
 void unexpected() {
   std::fprintf(stderr, "A Vulkan function that the mock doesn't have was called.\n");
   std::abort();
@@ -225,6 +230,7 @@ PFN_vkVoidFunction find(const char* name) {
   MOCK_FIND(GetPhysicalDeviceFormatProperties, getPhysicalDeviceFormatProperties)
   MOCK_FIND(GetPhysicalDeviceImageFormatProperties, getPhysicalDeviceImageFormatProperties)
   MOCK_FIND(GetPhysicalDeviceFeatures2, getPhysicalDeviceFeatures2)
+  MOCK_FIND(EnumerateInstanceVersion, enumerateInstanceVersion)
   MOCK_FIND(GetDeviceProcAddr, getDeviceProcAddr)
   return reinterpret_cast<PFN_vkVoidFunction>(&unexpected);
 }

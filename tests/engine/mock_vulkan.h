@@ -28,6 +28,7 @@ class MockVulkan {
   // What the device is like; to be changed before a call.
   VkPhysicalDeviceProperties properties = {};
   VkPhysicalDeviceFeatures features = {};
+  uint32_t loaderVersion = VK_API_VERSION_1_3;
   bool synchronization2 = true;
   bool dynamicRendering = true;
   VkPhysicalDeviceMemoryProperties memory = {};

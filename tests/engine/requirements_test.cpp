@@ -51,8 +51,43 @@ TEST_F(RequirementsTest, OldDeviceIsNotAskedForNewFeatures) {
   mock_.properties.apiVersion = VK_API_VERSION_1_2;
   EXPECT_EQ(check(), Status::Unsupported);
   EXPECT_EQ(mock_.lastDiagnostic(),
-            "The device \"mock\" lacks what is needed: Vulkan 1.3 (it is 1.2), synchronization2, "
-            "dynamicRendering.");
+            "The device \"mock\" lacks what is needed: Vulkan 1.3 (it is 1.2).");
+}
+
+TEST_F(RequirementsTest, AnOldVersionIsTheReasonAndOtherGapsFollow) {
+  needed_.core.geometryShader = VK_TRUE;
+  mock_.synchronization2 = false;
+  mock_.loaderVersion = VK_API_VERSION_1_1;
+  EXPECT_EQ(check(), Status::Unsupported);
+  EXPECT_EQ(mock_.lastDiagnostic(),
+            "The device \"mock\" lacks what is needed: a loader of Vulkan 1.3 (it is 1.1), "
+            "geometryShader.");
+  mock_.properties.apiVersion = VK_API_VERSION_1_2;
+  EXPECT_EQ(check(), Status::Unsupported);
+  EXPECT_EQ(mock_.lastDiagnostic(),
+            "The device \"mock\" lacks what is needed: Vulkan 1.3 (it is 1.2), a loader of Vulkan "
+            "1.3 (it is 1.1), geometryShader.");
+  EXPECT_EQ(mock_.diagnostics.size(), 2u);
+}
+
+TEST_F(RequirementsTest, ALoaderThatSaysNothingIsNotRefused) {
+  mock_.missingFunction = "vkEnumerateInstanceVersion";
+  EXPECT_EQ(check(), Status::Ok);
+}
+
+TEST_F(RequirementsTest, WhatIsOfferedIsAnsweredWhereItIsNotEnough) {
+  needed_.core.geometryShader = VK_TRUE;
+  mock_.features.depthClamp = VK_TRUE;
+  FeatureSet offered;
+  const DeviceDesc desc = mock_.deviceDesc();
+  EXPECT_EQ(checkPhysicalDevice(desc.getInstanceProcAddr, desc.instance, desc.physicalDevice,
+                                needed_, nullptr, nullptr, &offered),
+            Status::Unsupported);
+  EXPECT_TRUE(offered.synchronization2);
+  EXPECT_EQ(offered.core.depthClamp, VK_TRUE);
+  EXPECT_FALSE(offersAll(offered, needed_));
+  needed_.core.geometryShader = VK_FALSE;
+  EXPECT_TRUE(offersAll(offered, needed_));
 }
 
 TEST_F(RequirementsTest, AllFeaturesMissingStillFitTheSentence) {

@@ -5,6 +5,8 @@
 
 #include "temporary_folder.h"
 
+#include "tests/model/heard.h"
+
 namespace alpenglow::io {
 namespace {
 
@@ -71,13 +73,13 @@ TEST(AtmosphereFile, NullLeavesAConstituentOut) {
 }
 
 TEST(AtmosphereFile, EveryPresetComesBackBitForBit) {
-  ASSERT_GE(presetCount(), 5u);
-  for (uint32_t i = 0; i < presetCount(); ++i) {
+  ASSERT_GE(testing::allPresets().size(), 5u);
+  for (const Preset& listed : testing::allPresets()) {
     Parameters preset;
-    ASSERT_EQ(findPreset(presetName(i), &preset), Status::Ok);
+    ASSERT_EQ(findPreset(listed.name, &preset, {}), Status::Ok);
     const Result<Parameters> again = parseAtmosphere(formatAtmosphere(preset), "p.json");
     ASSERT_TRUE(again) << again.error;
-    EXPECT_EQ(preset.sunAngularRadius, again->sunAngularRadius) << presetName(i);
+    EXPECT_EQ(preset.sunAngularRadius, again->sunAngularRadius) << listed.name;
     for (uint32_t c = 0; c < kSpectrumSize; ++c) {
       EXPECT_EQ(preset.rayleigh.scattering_per_m[c], again->rayleigh.scattering_per_m[c]);
       EXPECT_EQ(preset.mie.extinction_per_m[c], again->mie.extinction_per_m[c]);

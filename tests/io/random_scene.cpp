@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/model/heard.h"
+
 namespace alpenglow::test {
 namespace {
 
@@ -39,8 +41,8 @@ class Maker {
 };
 
 Parameters air(Maker* make) {
-  Parameters air;
-  findPreset(presetName(make->whole(presetCount())), &air);
+  const std::span<const Preset> all = testing::allPresets();
+  Parameters air = all[make->whole(static_cast<uint32_t>(all.size()))].parameters;
   if (make->chance()) return air;
   air.groundAlbedo = make->color();
   air.sunAngularRadius = make->angle(0.01, 1.0);

@@ -247,7 +247,7 @@ TEST(SceneFile, SolverAndQualityHaveTheirNames) {
 TEST(SceneFile, TheAtmosphereIsAPresetAFileOrInline) {
   TemporaryFolder folder;
   Parameters mars;
-  ASSERT_EQ(findPreset("mars", &mars), Status::Ok);
+  ASSERT_EQ(findPreset("mars", &mars, {}), Status::Ok);
   const std::string atmosphere = formatAtmosphere(mars);
   std::filesystem::create_directory(folder / "sub");
   folder.write("sub/air.json", atmosphere);
@@ -272,7 +272,7 @@ TEST(SceneFile, TheAtmosphereIsAPresetAFileOrInline) {
 TEST(SceneFile, ScenesAndAtmospheresAreToldApartByContent) {
   TemporaryFolder folder;
   Parameters mars;
-  ASSERT_EQ(findPreset("mars", &mars), Status::Ok);
+  ASSERT_EQ(findPreset("mars", &mars, {}), Status::Ok);
   const std::string air = folder.write("a", formatAtmosphere(mars));
   const std::string scene = folder.write("b", kLeast);
   ASSERT_TRUE(findAtmosphereOrScene(air)) << findAtmosphereOrScene(air).error;

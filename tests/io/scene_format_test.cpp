@@ -11,6 +11,8 @@
 #include "schema.h"
 #include "temporary_folder.h"
 
+#include "tests/model/heard.h"
+
 namespace alpenglow::io {
 namespace {
 
@@ -138,16 +140,16 @@ TEST(SceneFormat, AnAtmosphereIsAPresetsNameOnlyIfAllBitsAreThePresets) {
     return nlohmann::json::parse(formatScene(scene))["atmosphere"];
   };
   Scene scene = earthScene();
-  for (uint32_t i = 0; i < presetCount(); ++i) {
+  for (const Preset& listed : testing::allPresets()) {
     Parameters preset;
-    ASSERT_EQ(findPreset(presetName(i), &preset), Status::Ok);
+    ASSERT_EQ(findPreset(listed.name, &preset, {}), Status::Ok);
     scene.atmosphere = preset;
-    EXPECT_EQ(atmosphere(scene), presetName(i));
+    EXPECT_EQ(atmosphere(scene), listed.name);
     for (double Parameters::*field : {&Parameters::topRadius_m, &Parameters::sunAngularRadius}) {
       for (const double towards : {-1e9, 1e9}) {
         scene.atmosphere = preset;
         scene.atmosphere.*field = std::nextafter(preset.*field, towards);
-        EXPECT_TRUE(atmosphere(scene).is_object()) << presetName(i);
+        EXPECT_TRUE(atmosphere(scene).is_object()) << listed.name;
       }
     }
   }

@@ -8,6 +8,8 @@
 
 #include "temporary_folder.h"
 
+#include "tests/model/heard.h"
+
 namespace alpenglow::io {
 namespace {
 
@@ -18,9 +20,9 @@ std::string errorOf(const char* schema, const Json& value) {
 }
 
 TEST(Schema, EveryPresetIsAnAtmosphere) {
-  for (uint32_t i = 0; i < presetCount(); ++i) {
+  for (const Preset& listed : testing::allPresets()) {
     Parameters preset;
-    ASSERT_EQ(findPreset(presetName(i), &preset), Status::Ok);
+    ASSERT_EQ(findPreset(listed.name, &preset, {}), Status::Ok);
     EXPECT_EQ(errorOf("atmosphere.schema.json", Json::parse(formatAtmosphere(preset))), "");
   }
 }
@@ -52,7 +54,7 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
                    "color": [0, 0.5, 1], "opacity": 0.5 }],
     "stars": { "sidereal_hours": 3 }, "effects": { "light_shafts": "auto" } })");
   Parameters mars;
-  ASSERT_EQ(findPreset("mars", &mars), Status::Ok);
+  ASSERT_EQ(findPreset("mars", &mars, {}), Status::Ok);
   const Json air = Json::parse(formatAtmosphere(mars));
   const Json values[] = {nullptr,
                          0,

@@ -21,7 +21,7 @@ inline bool isOptionallyFloat(const std::string& name) {
 /// With random texels; with `orders` also the parts of each, of three for a description of all.
 inline io::TableFile makeTables(const TableDesc& desc, bool orders) {
   io::TableFile file;
-  findPreset("earth", &file.parameters);
+  findPreset("earth", &file.parameters, {});
   file.desc = desc;
   std::mt19937 random(1);
   const auto add = [&](const std::string& name, const io::TablePart& shape) {

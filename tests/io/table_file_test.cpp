@@ -250,7 +250,7 @@ TEST(TableSizes, LimitsAreSentences) {
 
 TEST(TableSettings, DefaultsFollowSolverAndQuality) {
   Parameters earth;
-  ASSERT_EQ(findPreset("earth", &earth), Status::Ok);
+  ASSERT_EQ(findPreset("earth", &earth, {}), Status::Ok);
   TableDesc desc;
   desc.solver = Solver::Standard;
   desc = resolved(desc, earth);

@@ -62,7 +62,7 @@ TEST(WalkFile, KeysHaveWhatTheyDontGiveFromTheOnesBefore) {
   EXPECT_DOUBLE_EQ(last.camera.fov, 60 * kRadians) << "the default";
   EXPECT_DOUBLE_EQ(last.camera.heading, 10 * kRadians);
   Parameters earth;
-  findPreset("earth", &earth);
+  findPreset("earth", &earth, {});
   EXPECT_EQ(firstDifference(walk.keys[1].scene.atmosphere, earth), "");
   EXPECT_EQ(last.atmosphere.mie.asymmetry, 0.5);
   EXPECT_FALSE(last.atmosphere.absorption.present);

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "tests/model/heard.h"
+
 namespace alpenglow::io {
 namespace {
 
@@ -148,8 +150,8 @@ TEST_F(WalkPath, AtmospheresMixAndStayValid) {
   EXPECT_DOUBLE_EQ(half.mie.scattering_per_m[1], 0.5 * (2e-5 + 1e-3));
   EXPECT_EQ(half.rayleigh.scaleHeight_m, earth.rayleigh.scaleHeight_m);
   for (double t = 1.0; t <= 3.0; t += 0.05) {
-    char message[256] = {};
-    EXPECT_EQ(validate(at(t).atmosphere, message, sizeof message), Status::Ok) << message;
+    testing::Heard heard;
+    EXPECT_EQ(validate(at(t).atmosphere, heard.sink()), Status::Ok) << heard.sentence;
   }
 }
 

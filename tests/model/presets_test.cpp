@@ -5,12 +5,14 @@
 #include <set>
 #include <string>
 
+#include "tests/model/heard.h"
+
 namespace alpenglow {
 namespace {
 
 Parameters preset(const char* name) {
   Parameters p;
-  EXPECT_EQ(findPreset(name, &p), Status::Ok) << name;
+  EXPECT_EQ(findPreset(name, &p, {}), Status::Ok) << name;
   return p;
 }
 
@@ -22,17 +24,18 @@ void expectSpectrum(const Spectrum& actual, double red, double green, double blu
 
 TEST(Presets, AllAreValidAndSaySomething) {
   std::set<std::string> names;
-  for (uint32_t i = 0; i < presetCount(); ++i) {
-    ASSERT_NE(presetName(i), nullptr);
-    EXPECT_TRUE(names.insert(presetName(i)).second) << presetName(i) << " is listed twice";
-    EXPECT_GT(std::string(presetDescription(i)).size(), 10u);
+  for (const Preset& listed : testing::allPresets()) {
+    ASSERT_NE(listed.name, nullptr);
+    EXPECT_TRUE(names.insert(listed.name).second) << listed.name << " is listed twice";
+    EXPECT_GT(std::string(listed.description).size(), 10u);
     // A source has a year.
-    EXPECT_NE(std::string(presetSource(i)).find_first_of("12"), std::string::npos);
+    EXPECT_NE(std::string(listed.source).find_first_of("12"), std::string::npos);
     Parameters p;
-    ASSERT_EQ(findPreset(presetName(i), &p), Status::Ok);
-    char message[256];
-    EXPECT_EQ(validate(p, message, sizeof(message)), Status::Ok) << presetName(i) << message;
-    EXPECT_STREQ(message, "");
+    ASSERT_EQ(findPreset(listed.name, &p, {}), Status::Ok);
+    testing::Heard heard;
+    EXPECT_EQ(validate(p, heard.sink()), Status::Ok) << listed.name << heard.sentence;
+    EXPECT_EQ(heard.count, 0);
+    EXPECT_EQ(listed.parameters.bottomRadius_m, p.bottomRadius_m);
   }
   for (const char* name : {"earth", "earth-fig6", "earth-fig7", "earth-hazy", "mars"}) {
     EXPECT_EQ(names.count(name), 1u) << name;
@@ -41,14 +44,32 @@ TEST(Presets, AllAreValidAndSaySomething) {
 
 TEST(Presets, UnknownNamesAreRefused) {
   Parameters p = preset("mars");
-  EXPECT_EQ(findPreset("Earth", &p), Status::InvalidArgument);
-  EXPECT_EQ(findPreset("", &p), Status::InvalidArgument);
-  EXPECT_EQ(findPreset(nullptr, &p), Status::InvalidArgument);
-  EXPECT_EQ(findPreset("earth", nullptr), Status::InvalidArgument);
+  EXPECT_EQ(findPreset("Earth", &p, {}), Status::InvalidArgument);
+  EXPECT_EQ(findPreset("", &p, {}), Status::InvalidArgument);
+  EXPECT_EQ(findPreset(nullptr, &p, {}), Status::InvalidArgument);
+  EXPECT_EQ(findPreset("earth", nullptr, {}), Status::InvalidArgument);
   EXPECT_EQ(p.bottomRadius_m, preset("mars").bottomRadius_m) << "a failed call changed the object";
-  EXPECT_EQ(presetName(presetCount()), nullptr);
-  EXPECT_EQ(presetSource(presetCount()), nullptr);
-  EXPECT_EQ(presetDescription(presetCount()), nullptr);
+  EXPECT_EQ(presets(nullptr), testing::allPresets().data());
+}
+
+TEST(Presets, TheSentenceListsTheNames) {
+  Parameters p;
+  const std::string longName(1000, 'x');
+  for (const char* name : {"Earth", "", longName.c_str(), static_cast<const char*>(nullptr)}) {
+    testing::Heard heard;
+    EXPECT_EQ(findPreset(name, &p, heard.sink()), Status::InvalidArgument);
+    EXPECT_EQ(heard.count, 1);
+    EXPECT_EQ(heard.severity, Severity::Error);
+    EXPECT_EQ(heard.status, Status::InvalidArgument);
+    for (const Preset& listed : testing::allPresets())
+      EXPECT_NE(heard.sentence.find(listed.name), std::string::npos) << heard.sentence;
+    EXPECT_EQ(heard.sentence.back(), '.') << heard.sentence;
+  }
+  testing::Heard heard;
+  findPreset("Earth", &p, heard.sink());
+  EXPECT_EQ(heard.sentence,
+            "There is no preset named \"Earth\"; these exist: earth, earth-fig6, earth-fig7, "
+            "earth-clear, earth-hazy, mars.");
 }
 
 TEST(Presets, FiguresOfThePaper) {
@@ -75,7 +96,7 @@ TEST(Presets, FiguresOfThePaper) {
 
 TEST(Presets, DefaultEarthHasOzone) {
   const Parameters p = preset("earth");
-  EXPECT_STREQ(presetName(0), "earth") << "the default comes first";
+  EXPECT_STREQ(testing::allPresets()[0].name, "earth") << "the default comes first";
   ASSERT_TRUE(p.absorption.present);
   expectSpectrum(p.absorption.extinction_per_m, 0.65e-6, 1.881e-6, 0.085e-6);
   EXPECT_EQ(p.absorption.center_m, 25000);

@@ -74,7 +74,7 @@ TEST_F(ONeilTest, TakesAsManyPointsAsAsked) {
   const ProbeAnswer answer = probeAll({query}, three)[0];
   expectNear(answer.skyRadiance, reference.oneil(query, 3), 0.01, query);
   EXPECT_GT(std::abs(answer.skyRadiance[2] / reference.oneil(query, 10)[2] - 1.0), 0.05);
-  destroyTables(three, device().frame());
+  destroyTables(three);
 }
 
 // At texels of the 32 x 32 table, by way of the sky's irradiance, pi Psi.
@@ -165,7 +165,7 @@ TEST_F(SchafhitzelTest, CanNotShowTheEarthsShadow) {
     ASSERT_EQ(createTables(context(), molecules, desc, &full), Status::Ok) << message();
     bakeAll(device(), full);
     EXPECT_LT(azimuthRatio(probeAll(queries, full), queries), orders == 1 ? 1e-3 : 0.05);
-    destroyTables(full, device().frame());
+    destroyTables(full);
   }
 }
 

@@ -50,7 +50,7 @@ TEST_F(ModelRefusalTest, TablesHaveNoId) {
               Status::Unsupported);
     EXPECT_TRUE(hasAll(message(), "have no table")) << message();
   }
-  destroyTables(tables, device().frame());
+  destroyTables(tables);
 }
 
 TEST_F(ModelRefusalTest, ViewsOfAnotherSolver) {
@@ -61,7 +61,7 @@ TEST_F(ModelRefusalTest, ViewsOfAnotherSolver) {
       makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0),
                {1.0, 0.0, 0.0}, {8, 8});
   const Status status =
-      recordSky(view, reinterpret_cast<VkCommandBuffer>(1), device().frame(), tables(), draw);
+      recordSky(view, reinterpret_cast<VkCommandBuffer>(1), tables(), draw);
   EXPECT_EQ(status, Status::InvalidArgument);
   EXPECT_TRUE(hasAll(message(), "Solver::Moments|Hillaire")) << message();
 }

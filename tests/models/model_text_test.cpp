@@ -42,7 +42,7 @@ TEST(ModelText, LightLetOutKeepsItsDigits) {
 // In empty space between a sun of 1 and a black ground the models answer nothing, and no NaN.
 TEST(ModelText, NoAirIsNoLight) {
   Parameters parameters;
-  ASSERT_EQ(findPreset("earth", &parameters), Status::Ok);
+  ASSERT_EQ(findPreset("earth", &parameters, {}), Status::Ok);
   parameters.rayleigh.present = parameters.mie.present = parameters.absorption.present = false;
   parameters.groundAlbedo = {};
   const physics_f64::Medium m = makeMediumF64(parameters);

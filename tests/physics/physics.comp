@@ -22,5 +22,5 @@ void main() {
                    gridCoordinate(sliceGrid(view, 128.0, 160.0), view, angleFromNadir(ray.mu, 0.5), 0.5, ray.hitsGround).x);
   AirStretch air = airStretch(medium, airView(medium, view, ray.h), ray);
   result[4] = vec4(airUnit(air, 100.0), airTexelDistance(air, 3), airMeanDepth(result[0], 1.0), 0.0);
-  result[1] = vec4(toneMapFilmic(depth), miePhase(medium.mieAsymmetry, ray.nu));
+  result[1] = vec4(depth, miePhase(medium.mieAsymmetry, ray.nu));
 }

@@ -31,5 +31,5 @@ physics::Spectrum callEachFile(const physics::Medium& medium) {
   if (at[0] > physics::airUnit(air, physics::airTexelDistance(air, 3)))
     return physics::reflectedRadiance(medium.groundAlbedo, depth, depth);
   const Real u = physics::scatteringUnitMu(medium, ray.h, ray.mu, ray.hitsGround);
-  return physics::toneMapFilmic(depth) * (u + physics::miePhase(medium.mieAsymmetry, ray.nu));
+  return depth * (u + physics::miePhase(medium.mieAsymmetry, ray.nu));
 }

@@ -47,7 +47,7 @@ struct PrecisionNames {
 
 inline Parameters preset(const char* name) {
   Parameters p;
-  EXPECT_EQ(findPreset(name, &p), Status::Ok) << name;
+  EXPECT_EQ(findPreset(name, &p, {}), Status::Ok) << name;
   return p;
 }
 

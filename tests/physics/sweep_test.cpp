@@ -13,6 +13,8 @@
 #include "direct_light.h"
 #include "physics_overloads.h"
 
+#include "tests/model/heard.h"
+
 namespace alpenglow::test {
 namespace {
 
@@ -193,8 +195,8 @@ void compare(light_f64::DirectLight* lights, const BothRays& ray,
 // Returns false at the first unsound ray.
 bool tryAtmosphere(Sweep* sweep, bool compared, Differences* differences) {
   const Parameters p = sweep->atmosphere();
-  char message[320] = "";
-  EXPECT_EQ(validate(p, message, sizeof message), Status::Ok) << message;
+  testing::Heard heard;
+  EXPECT_EQ(validate(p, heard.sink()), Status::Ok) << heard.sentence;
   const physics_f64::Medium medium = makeMediumF64(p);
   light_f32::DirectLight lights = lightsInFloat(p, kSmall);
   std::optional<light_f64::DirectLight> exact;
@@ -243,8 +245,8 @@ TEST(Sweep, AnythingValidIsFinite) {
   Sweep sweep(6420);
   for (int i = 0; i < 1000; ++i) {
     const Parameters p = sweep.anyValid();
-    char message[320] = "";
-    ASSERT_EQ(validate(p, message, sizeof message), Status::Ok) << message;
+    testing::Heard heard;
+    ASSERT_EQ(validate(p, heard.sink()), Status::Ok) << heard.sentence;
     const physics_f64::Medium medium = makeMediumF64(p);
     light_f32::DirectLight lights = lightsInFloat(p, kSmall);
     for (int k = 0; k < kRays; ++k) {

@@ -2,32 +2,49 @@
 #include <alpenglow/plan.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
+#include <new>
 #include <random>
 #include <string>
+
+#include "tests/model/heard.h"
 
 namespace alpenglow {
 namespace {
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-Plan planOf(const Needs& needs, const char* preset = "earth", const TableDesc& base = {}) {
+Plan planOf(const PlanRequest& request, const char* preset = "earth") {
   Parameters parameters;
-  EXPECT_EQ(findPreset(preset, &parameters), Status::Ok);
+  EXPECT_EQ(findPreset(preset, &parameters, {}), Status::Ok);
   Plan plan;
-  char message[320] = "";
-  EXPECT_EQ(makePlan(parameters, needs, base, &plan, message, sizeof message), Status::Ok)
-      << message;
+  testing::Heard heard;
+  EXPECT_EQ(makePlan(parameters, request, &plan, heard.sink()), Status::Ok) << heard.sentence;
   return plan;
 }
 
-bool on(const Plan& plan, Effect effect) { return plan.effects[static_cast<uint32_t>(effect)].on; }
+/// Of a request that is refused; `plan` must stay as it was.
+std::string refusal(const PlanRequest& request) {
+  Parameters parameters;
+  EXPECT_EQ(findPreset("earth", &parameters, {}), Status::Ok);
+  Plan plan;
+  plan.imageCount = 77;
+  testing::Heard heard;
+  EXPECT_EQ(makePlan(parameters, request, &plan, heard.sink()), Status::InvalidArgument);
+  EXPECT_EQ(heard.count, 1);
+  EXPECT_EQ(plan.imageCount, 77u);
+  return heard.sentence;
+}
 
-Needs noon() {
-  Needs needs;
+bool on(const Plan& plan, Effect effect) { return plan.choices[static_cast<uint32_t>(effect)].on; }
+
+PlanRequest noon() {
+  PlanRequest needs;
   needs.altitudeTo_m = 100.0;
   needs.sunElevationFrom = 50.0 * kDegree;
   needs.sunElevationTo = 60.0 * kDegree;
-  needs.seen = kSeenSky | kSeenGround;
+  needs.visible = kVisibleSky | kVisibleGround;
   return needs;
 }
 
@@ -43,34 +60,33 @@ TEST(Plan, ClearNoonHasNothingOfShaftsTwilightOrSpace) {
 // The goal of a scene at ground level under a fixed evening sun, by the numbers of the plan; what
 // it measures and how far it is from the truth: build/bin/domain_bench.
 TEST(Plan, AFixedEveningSunTakesAQuarter) {
-  Needs needs;
+  PlanRequest needs;
   needs.altitudeTo_m = 2.0;
   needs.sunElevationFrom = needs.sunElevationTo = 3.0 * kDegree;
   needs.sunFixed = true;
-  needs.seen = kSeenSky | kSeenGround | kSeenSun;
+  needs.visible = kVisibleSky | kVisibleGround | kVisibleSun;
   needs.sunDiscRadius = 0.0047;
-  TableDesc medium;
-  medium.quality = Quality::Medium;
-  const Plan plan = planOf(needs, "earth", medium);
-  EXPECT_EQ(plan.tableDesc.sizes.depthMu, 128u);
+  needs.tables.quality = Quality::Medium;
+  const Plan plan = planOf(needs);
+  EXPECT_EQ(plan.tables.sizes.depthMu, 128u);
   EXPECT_LE(plan.cost.units, plan.whole.units / 4);
-  uint64_t tables = 0;
-  for (uint32_t i = 0; i < plan.tableCount; ++i)
-    if (std::string(plan.tables[i].name).find("sky slice") == std::string::npos)
-      tables += plan.tables[i].bytes;
+  uint64_t bytes = 0;
+  for (uint32_t i = 0; i < plan.imageCount; ++i)
+    if (std::string(plan.images[i].name).find("sky slice") == std::string::npos)
+      bytes += plan.images[i].bytes;
   constexpr uint64_t kDefaultTables = 7'000'000;  // docs/accuracy.md
-  EXPECT_LE(tables, kDefaultTables / 4);
+  EXPECT_LE(bytes, kDefaultTables / 4);
   EXPECT_TRUE(plan.errorMet);
 }
 
 TEST(Plan, AnythingHasEverything) {
-  Needs needs;
+  PlanRequest needs;
   needs.sunDiscRadius = 0.01;
-  needs.occluders = true;
+  needs.casters = true;
   const Plan plan = planOf(needs);
   for (uint32_t i = 0; i < kEffectCount; ++i)
-    EXPECT_TRUE(plan.effects[i].on) << plan.effects[i].reason;
-  EXPECT_EQ(plan.tableDesc.sunZenithTo, 0.0);
+    EXPECT_TRUE(plan.choices[i].on) << plan.choices[i].reason;
+  EXPECT_EQ(plan.tables.sunZenithTo, 0.0);
 }
 
 TEST(Plan, AirDecides) {
@@ -81,66 +97,174 @@ TEST(Plan, AirDecides) {
 
 TEST(Plan, EveryReasonIsASentence) {
   const Plan plan = planOf(noon());
-  for (const EffectChoice& choice : plan.effects) {
+  ASSERT_GT(plan.choiceCount, kEffectCount + 3u);
+  for (uint32_t i = 0; i < plan.choiceCount; ++i) {
+    const PlanChoice& choice = plan.choices[i];
     const std::string reason = choice.reason;
     ASSERT_FALSE(reason.empty());
     EXPECT_EQ(reason.back(), '.') << reason;
+    if (i >= kEffectCount) continue;
+    EXPECT_STREQ(choice.name, effectName(static_cast<Effect>(i)));
+    EXPECT_STREQ(choice.value, choice.on ? "on" : "off");
   }
-  ASSERT_GT(plan.choiceCount, 3u);
-  for (uint32_t i = 0; i < plan.choiceCount; ++i)
-    EXPECT_EQ(std::string(plan.choices[i].reason).back(), '.') << plan.choices[i].reason;
 }
 
 TEST(Plan, MoreNeedsNeverGiveLess) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int i = 0; i < 60; ++i) {
-    Needs few;
+    PlanRequest few;
     few.altitudeTo_m = 1.0 + 1e5 * unit(random);
     few.sunElevationFrom = (-60.0 + 120.0 * unit(random)) * kDegree;
     few.sunElevationTo = few.sunElevationFrom + 20.0 * unit(random) * kDegree;
-    few.seen = 1 + static_cast<SeenFlags>(30.0 * unit(random));
-    few.error = 0.05;
-    Needs more = few;
+    few.visible = 1 + static_cast<VisibilityFlags>(30.0 * unit(random));
+    few.errorTarget = 0.05;
+    PlanRequest more = few;
     more.altitudeTo_m *= 1.0 + unit(random);
     more.sunElevationFrom -= 10.0 * unit(random) * kDegree;
-    more.seen |= kSeenGround;
-    more.error = 0.05 * (0.1 + 0.9 * unit(random));
+    more.visible |= kVisibleGround;
+    more.errorTarget = 0.05 * (0.1 + 0.9 * unit(random));
     const Plan a = planOf(few), b = planOf(more);
     for (uint32_t e = 0; e < kEffectCount; ++e)
-      EXPECT_LE(a.effects[e].on, b.effects[e].on) << i << b.effects[e].reason;
-    EXPECT_LE(a.tableDesc.quality, b.tableDesc.quality) << i;
+      EXPECT_LE(a.choices[e].on, b.choices[e].on) << i << b.choices[e].reason;
+    EXPECT_LE(a.tables.quality, b.tables.quality) << i;
     EXPECT_LE(a.cost.bytes, b.cost.bytes) << i;
   }
 }
 
+RecreateFlags change(const Plan& current, const PlanRequest& request, std::string* reason) {
+  testing::Heard heard;
+  const RecreateFlags flags = comparePlans(current, planOf(request), heard.sink());
+  EXPECT_EQ(heard.count, flags != 0 ? 1 : 0) << heard.sentence;
+  EXPECT_EQ(heard.severity, Severity::Info);
+  *reason = heard.sentence;
+  return flags;
+}
+
 TEST(Plan, ServesWhatItWasMadeFor) {
   const Plan plan = planOf(noon());
-  char reason[256];
-  Needs needs = noon();
+  std::string reason;
+  PlanRequest needs = noon();
   needs.sunElevationFrom = 52.0 * kDegree;
   needs.altitudeTo_m = 50.0;
-  EXPECT_TRUE(planServes(plan, needs, reason, sizeof reason)) << reason;
-  PlanChange change = comparePlans(plan, planOf(needs));
-  EXPECT_FALSE(change.tables || change.view || change.shafts) << change.reason;
+  EXPECT_EQ(change(plan, needs, &reason), 0u) << reason;
   needs.sunElevationFrom = -5.0 * kDegree;
-  EXPECT_FALSE(planServes(plan, needs, reason, sizeof reason));
-  EXPECT_NE(std::string(reason), "");
-  change = comparePlans(plan, planOf(needs));
-  EXPECT_TRUE(change.tables);
-  EXPECT_NE(std::string(change.reason), "");
+  EXPECT_NE(change(plan, needs, &reason) & kRecreateTables, 0u);
+  EXPECT_NE(reason, "");
+}
+
+TEST(Plan, TellsWhatChangesTakes) {
+  const Plan plan = planOf(noon());
+  std::string reason;
+  const struct {
+    const char* name;
+    void (*change)(PlanRequest*);
+    RecreateFlags expected;
+  } cases[] = {
+      {"nothing", [](PlanRequest*) {}, 0},
+      {"solver", [](PlanRequest* r) { r->tables.solver = Solver::Standard; },
+       kRecreateTables | kRecreateView},
+      {"format", [](PlanRequest* r) { r->tables.format = TableFormat::Float; }, kRecreateTables},
+      {"sizes", [](PlanRequest* r) { r->tables.moments.nodesR = 20; }, kRecreateTables},
+      {"quality", [](PlanRequest* r) { r->tables.quality = Quality::Ultra; },
+       kRecreateTables | kRecreateView},
+      {"projection", [](PlanRequest* r) { r->projection = Projection::Fisheye; }, kRecreateView},
+      {"scene", [](PlanRequest* r) { r->visible |= kVisibleScene; }, kRecreateView},
+      {"casters",
+       [](PlanRequest* r) {
+         r->visible |= kVisibleScene;
+         r->casters = true;
+       },
+       kRecreateView},
+      {"disc",
+       [](PlanRequest* r) {
+         r->visible |= kVisibleSun;
+         r->sunDiscRadius = 0.005;
+       },
+       kRecreateView},
+      {"an effect by hand", [](PlanRequest* r) { r->effects[uint32_t(Effect::Mie)] = Force::Off; },
+       kRecreateTables | kRecreateView},
+      {"budget", [](PlanRequest* r) { r->budgetBytes = uint64_t{1} << 40; }, 0},
+  };
+  for (const auto& c : cases) {
+    PlanRequest request = noon();
+    c.change(&request);
+    EXPECT_EQ(change(plan, request, &reason), c.expected) << c.name << ": " << reason;
+  }
 }
 
 TEST(Plan, RefusesWrongNeeds) {
-  Parameters parameters;
-  ASSERT_EQ(findPreset("earth", &parameters), Status::Ok);
-  Needs needs;
+  PlanRequest needs;
   needs.altitudeFrom_m = -1.0;
-  Plan plan;
-  char message[320] = "";
-  EXPECT_EQ(makePlan(parameters, needs, {}, &plan, message, sizeof message),
-            Status::InvalidArgument);
-  EXPECT_NE(std::string(message).find("altitudeFrom_m is -1"), std::string::npos) << message;
+  const std::string message = refusal(needs);
+  EXPECT_NE(message.find("altitudeFrom_m is -1"), std::string::npos) << message;
+}
+
+// By the sentence that createTables has, and before any order costs memory.
+TEST(Plan, RefusesTablesThatCanNotBeMade) {
+  const struct {
+    const char* part;
+    void (*spoil)(TableDesc*);
+  } cases[] = {
+      {"orders is 10000000", [](TableDesc* d) { d->orders = 10'000'000; }},
+      {"orders is 10000000",
+       [](TableDesc* d) {
+         d->solver = Solver::Standard;
+         d->orders = 10'000'000;
+       }},
+      {"nodesR is 100000", [](TableDesc* d) { d->moments.nodesR = 100'000; }},
+      {"samples", [](TableDesc* d) { d->samples = 5; }},
+      {"scatteringMu is 3",
+       [](TableDesc* d) {
+         d->solver = Solver::Standard;
+         d->sizes.scatteringMu = 3;
+       }},
+      {"transmittanceMu is 4294967295",
+       [](TableDesc* d) {
+         d->solver = Solver::Standard;
+         d->sizes.transmittanceMu = ~0u;
+       }},
+      {"azimuths is 2", [](TableDesc* d) { d->moments.azimuths = 2; }},
+      {"solver 9", [](TableDesc* d) { d->solver = static_cast<Solver>(9); }},
+      {"from 2 to 1", [](TableDesc* d) { d->sunZenithFrom = 2.0, d->sunZenithTo = 1.0; }},
+  };
+  for (const auto& c : cases) {
+    PlanRequest request = noon();
+    c.spoil(&request.tables);
+    const std::string message = refusal(request);
+    EXPECT_NE(message.find(c.part), std::string::npos) << message;
+  }
+}
+
+TEST(Plan, ExpectsTheSecondsOfABake) {
+  PlanRequest request = noon();
+  request.secondsPerUnit = 1e-6;
+  const Plan plan = planOf(request);
+  EXPECT_DOUBLE_EQ(plan.expectedBakeSeconds, 1e-6 * double(plan.cost.units));
+  EXPECT_TRUE(plan.budgetMet);
+  request.budgetSeconds = 1e-3;
+  EXPECT_FALSE(planOf(request).budgetMet);
+  EXPECT_GT(planOf(noon()).expectedBakeSeconds, 0.0);
+}
+
+/// Over bytes that are zero, since what pads a struct is nobody's.
+template <typename T>
+bool allZero() {
+  alignas(T) static unsigned char bytes[sizeof(T)];
+  new (bytes) T{};
+  return std::all_of(std::begin(bytes), std::end(bytes), [](unsigned char b) { return b == 0; });
+}
+
+TEST(Plan, ZeroIsTheDefault) {
+  EXPECT_TRUE(allZero<Plan>());
+  EXPECT_TRUE(allZero<PlanRequest>());
+  EXPECT_TRUE(allZero<PlanChoice>());
+  EXPECT_TRUE(allZero<ContextDesc>());
+  EXPECT_TRUE(allZero<Requirements>());
+  EXPECT_TRUE(allZero<Diagnostic>());
+  EXPECT_TRUE(allZero<Preset>());
+  EXPECT_TRUE(allZero<HostImage>());
+  EXPECT_TRUE(allZero<ImageInfo>());
 }
 
 }  // namespace

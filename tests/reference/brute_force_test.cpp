@@ -198,7 +198,7 @@ TEST_P(ReferenceAgainstBruteForce, Agrees) {
   const BruteForceCase& c = bruteForceCases()[static_cast<size_t>(GetParam())];
   const Parameters p = preset(c.preset);
   ReferenceAnswer reference;
-  ASSERT_EQ(referenceSingleScattering(p, c.query, &reference), Status::Ok);
+  ASSERT_EQ(referenceSingleScattering(p, c.query, &reference, {}), Status::Ok);
   const BruteForce::Answer brute = BruteForce(p).evaluate(c.query);
   ASSERT_GT(brute.sky[0], 0.0);
   expectClose(reference.value.transmittance, brute.transmittance, 1e-8, "transmittance");

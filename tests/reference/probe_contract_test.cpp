@@ -13,7 +13,7 @@ using namespace test;
 
 ProbeAnswer ask(const ProbeQuery& query, const char* name = "earth") {
   ReferenceAnswer answer;
-  EXPECT_EQ(referenceSingleScattering(preset(name), query, &answer), Status::Ok);
+  EXPECT_EQ(referenceSingleScattering(preset(name), query, &answer, {}), Status::Ok);
   return answer.value;
 }
 
@@ -142,15 +142,16 @@ TEST(ProbeContract, BadQueriesAreRefused) {
     for (double value : {nan, infinity, -infinity}) {
       ProbeQuery query = rayQuery(2, 70, 80, 50);
       query.*field = value;
-      EXPECT_EQ(referenceSingleScattering(p, query, &a), Status::InvalidArgument);
+      EXPECT_EQ(referenceSingleScattering(p, query, &a, {}), Status::InvalidArgument);
     }
   }
-  EXPECT_EQ(referenceSingleScattering(p, rayQuery(-1, 0, 0, 0), &a), Status::InvalidArgument);
-  EXPECT_EQ(referenceSingleScattering(p, rayQuery(0, -1, 0, 0), &a), Status::InvalidArgument);
-  EXPECT_EQ(referenceSingleScattering(p, rayQuery(0, 181, 0, 0), &a), Status::InvalidArgument);
-  EXPECT_EQ(referenceSingleScattering(p, rayQuery(0, 0, 181, 0), &a), Status::InvalidArgument);
-  EXPECT_EQ(referenceSingleScattering(p, rayQuery(0, 0, 0, 0), nullptr), Status::InvalidArgument);
-  EXPECT_EQ(referenceSingleScattering(Parameters{}, rayQuery(0, 0, 0, 0), &a),
+  EXPECT_EQ(referenceSingleScattering(p, rayQuery(-1, 0, 0, 0), &a, {}), Status::InvalidArgument);
+  EXPECT_EQ(referenceSingleScattering(p, rayQuery(0, -1, 0, 0), &a, {}), Status::InvalidArgument);
+  EXPECT_EQ(referenceSingleScattering(p, rayQuery(0, 181, 0, 0), &a, {}), Status::InvalidArgument);
+  EXPECT_EQ(referenceSingleScattering(p, rayQuery(0, 0, 181, 0), &a, {}), Status::InvalidArgument);
+  EXPECT_EQ(referenceSingleScattering(p, rayQuery(0, 0, 0, 0), nullptr, {}),
+            Status::InvalidArgument);
+  EXPECT_EQ(referenceSingleScattering(Parameters{}, rayQuery(0, 0, 0, 0), &a, {}),
             Status::InvalidArgument);
   EXPECT_EQ(a.value.skyRadiance[0], 7) << "a failed call changed the object";
 }
@@ -159,7 +160,7 @@ TEST(ProbeContract, AirlessPlanetShowsItsGround) {
   Parameters p = preset("earth");
   p.rayleigh.present = p.mie.present = p.absorption.present = false;
   ReferenceAnswer a;
-  ASSERT_EQ(referenceSingleScattering(p, rayQuery(1000, 120, 60, 0), &a), Status::Ok);
+  ASSERT_EQ(referenceSingleScattering(p, rayQuery(1000, 120, 60, 0), &a, {}), Status::Ok);
   expectAll(a.value.transmittance, 1.0, "transmittance");
   expectAll(a.value.skyRadiance, 0.0, "sky");
   EXPECT_NEAR(a.value.groundRadiance[0], 0.1 / std::numbers::pi * 0.5, 1e-5);

@@ -24,13 +24,15 @@ ReferenceOptions samplesOf(uint64_t samples, uint32_t orders = 0, uint64_t seed 
 /// A reference with an owner.
 class Truth {
  public:
-  explicit Truth(const Parameters& p) { EXPECT_EQ(createReference(p, &reference_), Status::Ok); }
+  explicit Truth(const Parameters& p) {
+    EXPECT_EQ(createReference(p, &reference_, {}), Status::Ok);
+  }
   explicit Truth(const char* name) : Truth(preset(name)) {}
   Truth(const Truth&) = delete;
   ~Truth() { destroyReference(reference_); }
   ReferenceAnswer operator()(const ProbeQuery& query, const ReferenceOptions& options) const {
     ReferenceAnswer a;
-    EXPECT_EQ(evaluateReference(reference_, query, options, &a), Status::Ok);
+    EXPECT_EQ(evaluateReference(reference_, query, options, &a, {}), Status::Ok);
     return a;
   }
 
@@ -138,7 +140,7 @@ TEST(Reference, OrdersAddUp) {
   const Truth truth("earth");
   const ProbeQuery ray = rayQuery(10e3, 120, 50, 60), surface = irradianceQuery(0, 50);
   ReferenceAnswer exact;
-  ASSERT_EQ(referenceSingleScattering(preset("earth"), ray, &exact), Status::Ok);
+  ASSERT_EQ(referenceSingleScattering(preset("earth"), ray, &exact, {}), Status::Ok);
   const ReferenceAnswer one = truth(ray, samplesOf(8192, 1));
   expectClose(one.value.skyRadiance, exact.value.skyRadiance, 0, "order 1");
   expectAll(truth(surface, samplesOf(8192, 1)).value.sky, 0.0, "no event before the surface");
@@ -182,7 +184,7 @@ TEST(Reference, StopsAtItsTarget) {
   options.targetError = 0.0006;
   const ReferenceAnswer fine = truth(rayQuery(2, 60, 50, 60), options);
   EXPECT_GT(fine.samples, rough.samples);
-  EXPECT_LT(fine.samples, options.maxSamples);
+  EXPECT_LT(fine.samples, uint64_t{1} << 19);
   for (uint32_t c = 0; c < kSpectrumSize; ++c) {
     EXPECT_LE(fine.standardError.skyRadiance[c], 0.0006 * fine.value.skyRadiance[c]);
   }
@@ -270,28 +272,28 @@ TEST(Reference, BandsFollowTheSunWhereTheRayLooks) {
 TEST(Reference, BadArgumentsAreRefused) {
   const Parameters p = preset("earth");
   Reference* reference = nullptr;
-  EXPECT_EQ(createReference(Parameters{}, &reference), Status::InvalidArgument);
-  EXPECT_EQ(createReference(p, nullptr), Status::InvalidArgument);
+  EXPECT_EQ(createReference(Parameters{}, &reference, {}), Status::InvalidArgument);
+  EXPECT_EQ(createReference(p, nullptr, {}), Status::InvalidArgument);
   EXPECT_EQ(reference, nullptr);
-  ASSERT_EQ(createReference(p, &reference), Status::Ok);
+  ASSERT_EQ(createReference(p, &reference, {}), Status::Ok);
   ReferenceAnswer a;
   a.samples = 7;
   ProbeQuery bad = rayQuery(2, 70, 80, 50);
   bad.azimuth = std::numeric_limits<double>::quiet_NaN();
   const ReferenceOptions options = samplesOf(2048);
-  EXPECT_EQ(evaluateReference(reference, bad, options, &a), Status::InvalidArgument);
-  EXPECT_EQ(evaluateReference(reference, rayQuery(2, 70, 80, 50), options, nullptr),
+  EXPECT_EQ(evaluateReference(reference, bad, options, &a, {}), Status::InvalidArgument);
+  EXPECT_EQ(evaluateReference(reference, rayQuery(2, 70, 80, 50), options, nullptr, {}),
             Status::InvalidArgument);
-  EXPECT_EQ(evaluateReference(nullptr, rayQuery(2, 70, 80, 50), options, &a),
+  EXPECT_EQ(evaluateReference(nullptr, rayQuery(2, 70, 80, 50), options, &a, {}),
             Status::InvalidArgument);
   ReferenceOptions endless;
-  endless.targetError = 0.0;
-  EXPECT_EQ(evaluateReference(reference, rayQuery(2, 70, 80, 50), endless, &a),
+  endless.targetError = -1.0;
+  EXPECT_EQ(evaluateReference(reference, rayQuery(2, 70, 80, 50), endless, &a, {}),
             Status::InvalidArgument);
   EXPECT_EQ(a.samples, 7u) << "a failed call changed the answer";
   destroyReference(reference);
   destroyReference(nullptr);
-  EXPECT_EQ(evaluateReference(Parameters{}, rayQuery(2, 70, 80, 50), options, &a),
+  EXPECT_EQ(evaluateReference(Parameters{}, rayQuery(2, 70, 80, 50), options, &a, {}),
             Status::InvalidArgument);
 }
 

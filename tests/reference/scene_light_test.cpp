@@ -140,7 +140,7 @@ TEST(ScenePaths, WithoutMeshesTheReferenceIsMet) {
   ReferenceAnswer expected;
   ReferenceOptions options = paths(1 << 16);
   options.seed = 1;
-  ASSERT_EQ(evaluateReference(p, query, options, &expected), Status::Ok);
+  ASSERT_EQ(evaluateReference(p, query, options, &expected, {}), Status::Ok);
   ASSERT_TRUE(light.end.onSurface);
   for (uint32_t c = 0; c < kSpectrumSize; ++c) {
     const double error = std::hypot(light.air.error[c], expected.standardError.skyRadiance[c]);

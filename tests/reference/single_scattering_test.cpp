@@ -165,7 +165,7 @@ TEST(SingleScattering, ExtremeMediaStayFiniteAndOrdered) {
                                             << sun << " " << azimuth);
             ReferenceAnswer a;
             const ProbeQuery query = rayQuery(altitude, view, sun, azimuth);
-            ASSERT_EQ(referenceSingleScattering(p, query, &a), Status::Ok);
+            ASSERT_EQ(referenceSingleScattering(p, query, &a, {}), Status::Ok);
             for (uint32_t i = 0; i < kSpectrumSize; ++i) {
               EXPECT_TRUE(std::isfinite(a.value.skyRadiance[i]));
               EXPECT_GE(a.value.skyRadiance[i], 0.0);

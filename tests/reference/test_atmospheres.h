@@ -14,7 +14,7 @@ inline constexpr double kDegree = std::numbers::pi / 180.0;
 
 inline Parameters preset(const char* name) {
   Parameters p;
-  EXPECT_EQ(findPreset(name, &p), Status::Ok) << name;
+  EXPECT_EQ(findPreset(name, &p, {}), Status::Ok) << name;
   return p;
 }
 

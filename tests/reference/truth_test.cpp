@@ -82,7 +82,7 @@ TEST_P(TruthData, TheReferenceStillGivesIt) {
     options.samples = 16384;
     options.seed = 1234;
     ReferenceAnswer again;
-    ASSERT_EQ(evaluateReference(set_.parameters, q.query, options, &again), Status::Ok);
+    ASSERT_EQ(evaluateReference(set_.parameters, q.query, options, &again, {}), Status::Ok);
     EXPECT_EQ(again.value.hitsGround, q.truth.value.hitsGround);
     const auto expectSame = [&](Spectrum ProbeAnswer::*field, const char* what) {
       for (uint32_t c = 0; c < kSpectrumSize; ++c) {

@@ -44,7 +44,7 @@ Neighbours neighboursOf(const MeshView& view) {
   Neighbours result;
   result.indices.assign(size_t{view.indexCount} * 2, kUntouched);
   Refusal refusal;
-  EXPECT_EQ(buildAdjacency(view, result.indices.data(), &result.report, &Refusal::take, &refusal),
+  EXPECT_EQ(buildAdjacency(view, result.indices.data(), &result.report, {&Refusal::take, &refusal}),
             Status::Ok)
       << refusal.sentence;
   return result;
@@ -300,11 +300,11 @@ void expectRefused(const MeshView& view, Status expected,
   AdjacencyReport report;
   report.borderEdges = 77;
   Refusal refusal;
-  const Status status = buildAdjacency(view, six.data(), &report, &Refusal::take, &refusal);
+  const Status status = buildAdjacency(view, six.data(), &report, {&Refusal::take, &refusal});
   refusal.expect(status, expected, words);
   EXPECT_EQ(report.borderEdges, 77u);
   EXPECT_EQ(std::count(six.begin(), six.end(), kUntouched), 64);
-  EXPECT_EQ(buildAdjacency(view, six.data(), nullptr, nullptr, nullptr), expected);
+  EXPECT_EQ(buildAdjacency(view, six.data(), nullptr, {}), expected);
 }
 
 TEST(Adjacency, RefusesBadInputWithItsValue) {
@@ -331,7 +331,7 @@ TEST(Adjacency, RefusesBadInputWithItsValue) {
   mesh.points[2][1] = -std::numeric_limits<float>::infinity();
   expectRefused(mesh.view(), Status::InvalidArgument, {"y of vertex 2", "-inf"});
   Refusal refusal;
-  refusal.expect(buildAdjacency(tetrahedron().view(), nullptr, nullptr, &Refusal::take, &refusal),
+  refusal.expect(buildAdjacency(tetrahedron().view(), nullptr, nullptr, {&Refusal::take, &refusal}),
                  Status::InvalidArgument, {"adjacency is null"});
 }
 
@@ -342,7 +342,7 @@ TEST(Adjacency, WithoutMemoryNothingIsWritten) {
   int allowed = 0;
   for (; status != Status::Ok && allowed < 100; ++allowed) {
     newCallsLeft = allowed;
-    status = buildAdjacency(mesh.view(), six.data(), nullptr, nullptr, nullptr);
+    status = buildAdjacency(mesh.view(), six.data(), nullptr, {});
     newCallsLeft = -1;
     if (status != Status::Ok) {
       EXPECT_EQ(status, Status::OutOfHostMemory);
@@ -358,7 +358,7 @@ TEST(Adjacency, Of327680TrianglesTakesWellUnderASecond) {
   ASSERT_EQ(mesh.indices.size(), 3u * 327680u);
   std::vector<uint32_t> six(mesh.indices.size() * 2);
   const std::clock_t start = std::clock();  // CPU time, which a busy machine doesn't stretch.
-  ASSERT_EQ(buildAdjacency(mesh.view(), six.data(), nullptr, nullptr, nullptr), Status::Ok);
+  ASSERT_EQ(buildAdjacency(mesh.view(), six.data(), nullptr, {}), Status::Ok);
   const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   std::printf("%.3f CPU seconds\n", seconds);
   EXPECT_LT(seconds, 1.0);

@@ -27,12 +27,11 @@ inline reference::test::Mesh realTerrain(const Parameters& parameters, uint32_t 
   desc.heightScale = 3.0;
   desc.fade_m = 3000.0;
   TerrainSize size;
-  EXPECT_EQ(terrainSize(desc, &size, nullptr, nullptr), Status::Ok);
+  EXPECT_EQ(terrainSize(desc, &size, {}), Status::Ok);
   std::vector<TerrainVertex> vertices(size.vertexCount);
   mesh.indices.resize(size.indexCount);
   TerrainPlace place;
-  EXPECT_EQ(buildTerrain(desc, vertices.data(), mesh.indices.data(), &place, nullptr, nullptr),
-            Status::Ok);
+  EXPECT_EQ(buildTerrain(desc, vertices.data(), mesh.indices.data(), &place, {}), Status::Ok);
   const Vec origin = groundOrigin(parameters);
   for (const TerrainVertex& v : vertices)
     for (size_t i = 0; i < 3; ++i)

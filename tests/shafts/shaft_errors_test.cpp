@@ -135,14 +135,13 @@ TEST_F(ShaftErrorsTest, AnotherContextIsRefused) {
   Shafts* shafts = nullptr;
   EXPECT_EQ(createShafts(other, goodDesc(rig), &shafts), Status::Ok);
   run([&](VkCommandBuffer c) {
-    const FrameInfo frame = device().frame();
-    EXPECT_EQ(recordSunMap(shafts, c, frame, draw_.sun.direction, casters()), Status::Ok);
-    EXPECT_EQ(recordShafts(shafts, rig.view, c, frame, baked, draw_, casters()),
+    EXPECT_EQ(recordSunMap(shafts, c, draw_.sun.direction, casters()), Status::Ok);
+    EXPECT_EQ(recordShafts(shafts, rig.view, c, baked, draw_, casters()),
               Status::InvalidArgument);
     return true;
   });
   EXPECT_TRUE(hasAll(lastDiagnostic(), "recordShafts|others")) << lastDiagnostic();
-  destroyShafts(shafts, FrameInfo{});
+  destroyShafts(shafts);
   destroyContext(other);
 
   ContextDesc without = contextDesc();
@@ -160,23 +159,22 @@ TEST_F(ShaftErrorsTest, BadCallsRecordNothing) {
   ResourceReport start, end;
   resourceReport(context(), &start);
   run([&](VkCommandBuffer c) {
-    const FrameInfo frame = device().frame();
     const double* sun = draw_.sun.direction;
     const auto shaftsWith = [&](const SkyDraw& d, const Casters& casters) {
-      return recordShafts(rig.shafts, rig.view, c, frame, baked, d, casters);
+      return recordShafts(rig.shafts, rig.view, c, baked, d, casters);
     };
     Casters bad = casters();
     bad.draw = nullptr;
-    expectRefused(recordSunMap(rig.shafts, c, frame, sun, bad), kBad, "Casters::draw is null");
+    expectRefused(recordSunMap(rig.shafts, c, sun, bad), kBad, "Casters::draw is null");
     expectRefused(shaftsWith(draw_, bad), kBad, "Casters::draw is null");
     bad = casters();
     bad.bounds.halfAxes_m[1][2] = std::numeric_limits<double>::infinity();
-    expectRefused(recordSunMap(rig.shafts, c, frame, sun, bad), kBad, "Casters::bounds");
+    expectRefused(recordSunMap(rig.shafts, c, sun, bad), kBad, "Casters::bounds");
     bad = casters();
     bad.bounds = Box{};
     expectRefused(shaftsWith(draw_, bad), kBad, "Casters::bounds|(0, 0, 0)");
     const double nowhere[3] = {0.0, 0.5, 0.0};
-    expectRefused(recordSunMap(rig.shafts, c, frame, nowhere, casters()), kBad, "sunDirection|0.5");
+    expectRefused(recordSunMap(rig.shafts, c, nowhere, casters()), kBad, "sunDirection|0.5");
     SkyDraw d = drawFrom({50, 0, 0}, 90, 15, 60, kExtent, 36, 200);
     expectRefused(shaftsWith(d, casters()), kBad, "recordSunMap was called last for");
     d = draw_;
@@ -191,10 +189,10 @@ TEST_F(ShaftErrorsTest, BadCallsRecordNothing) {
     // Shadows of another camera.
     d = draw_;
     d.camera.position_m[0] += 1.0;
-    expectRefused(recordSky(rig.view, c, frame, baked, d), kBad, "recordShafts was not called");
-    expectRefused(recordAir(rig.view, c, frame, baked, d), kBad, "recordShafts was not called");
-    EXPECT_EQ(recordSunMap(nullptr, c, frame, sun, casters()), kBad);
-    EXPECT_EQ(recordShafts(rig.shafts, nullptr, c, frame, baked, d, casters()), kBad);
+    expectRefused(recordSky(rig.view, c, baked, d), kBad, "recordShafts was not called");
+    expectRefused(recordAir(rig.view, c, baked, d), kBad, "recordShafts was not called");
+    EXPECT_EQ(recordSunMap(nullptr, c, sun, casters()), kBad);
+    EXPECT_EQ(recordShafts(rig.shafts, nullptr, c, baked, d, casters()), kBad);
     return true;
   });
   resourceReport(context(), &end);
@@ -215,8 +213,9 @@ TEST_F(ShaftErrorsTest, AirNeedsAFormatThatBlends) {
 TEST_F(ShaftErrorsTest, OnlyThePaperNeedsGeometryShaders) {
   Requirements exact, paper;
   const auto query = [&](CapabilityFlags wanted, Requirements* out) {
-    return queryRequirements(device().getInstanceProcAddr(), device().instance(),
-                             device().physicalDevice(), wanted, out, nullptr, nullptr);
+    ContextDesc desc = contextDesc();
+    desc.capabilities = wanted;
+    return queryRequirements(desc, out);
   };
   ASSERT_EQ(query(kCapabilityShafts, &exact), Status::Ok);
   ASSERT_EQ(query(kCapabilityShafts | kCapabilityShadowVolumes, &paper), Status::Ok);
@@ -231,7 +230,7 @@ TEST_F(ShaftErrorsTest, OnlyThePaperNeedsGeometryShaders) {
   ShaftsDesc shafts = goodDesc(rigOf(setup_, kExtent));
   Shafts* made = nullptr;
   EXPECT_EQ(createShafts(without, shafts, &made), Status::Ok) << lastDiagnostic();
-  destroyShafts(made, FrameInfo{});
+  destroyShafts(made);
   shafts.method = ShaftMethod::Paper;
   EXPECT_EQ(createShafts(without, shafts, &made), Status::Unsupported);
   EXPECT_TRUE(hasAll(lastDiagnostic(), "Paper|kCapabilityShadowVolumes")) << lastDiagnostic();
@@ -250,16 +249,16 @@ TEST_F(ShaftErrorsTest, AMapComesFirst) {
   View* view = nullptr;
   ASSERT_EQ(createView(context(), desc, &view), Status::Ok) << message();
   run([&](VkCommandBuffer c) {
-    expectRefused(recordShafts(fresh, rig.view, c, device().frame(), baked, draw_, casters()),
+    expectRefused(recordShafts(fresh, rig.view, c, baked, draw_, casters()),
                   Status::InvalidArgument, "made with others");
-    expectRefused(recordShafts(fresh, view, c, device().frame(), baked, draw_, casters()),
+    expectRefused(recordShafts(fresh, view, c, baked, draw_, casters()),
                   Status::InvalidArgument, "recordSunMap");
-    EXPECT_EQ(recordSunMap(fresh, c, device().frame(), draw_.sun.direction, casters()), Status::Ok);
-    EXPECT_EQ(recordShafts(fresh, view, c, device().frame(), baked, draw_, casters()), Status::Ok);
+    EXPECT_EQ(recordSunMap(fresh, c, draw_.sun.direction, casters()), Status::Ok);
+    EXPECT_EQ(recordShafts(fresh, view, c, baked, draw_, casters()), Status::Ok);
     return true;
   });
-  destroyView(view, FrameInfo{});
-  destroyShafts(fresh, FrameInfo{});
+  destroyView(view);
+  destroyShafts(fresh);
 }
 
 /// What making an object added.
@@ -277,7 +276,7 @@ TEST_F(ShaftErrorsTest, NothingIsMadeOfAMethodThatIsNotChosen) {
     Shafts* shafts = nullptr;
     EXPECT_EQ(createShafts(context(), desc, &shafts), Status::Ok) << message();
     resourceReport(context(), &end);
-    destroyShafts(shafts, FrameInfo{});
+    destroyShafts(shafts);
     return Added{end.pipelines - start.pipelines, end.images - start.images,
                  end.buffers - start.buffers};
   };
@@ -312,7 +311,7 @@ TEST_F(ShaftErrorsTest, AViewWithoutAirMakesNoneOfIt) {
     View* made = nullptr;
     EXPECT_EQ(createView(context(), desc, &made), Status::Ok) << message();
     resourceReport(context(), &end);
-    destroyView(made, FrameInfo{});
+    destroyView(made);
     *images = end.images - start.images;
     return end.pipelines - start.pipelines;
   };

@@ -107,7 +107,7 @@ void ShaftTest::addCaster(const reference::test::Mesh& mesh) {
   view.vertexCount = static_cast<uint32_t>(positions.size() / 3);
   view.indices = mesh.indices.data();
   view.indexCount = static_cast<uint32_t>(mesh.indices.size());
-  ASSERT_EQ(buildAdjacency(view, adjacency.data(), nullptr, nullptr, nullptr), Status::Ok);
+  ASSERT_EQ(buildAdjacency(view, adjacency.data(), nullptr, {}), Status::Ok);
 
   CasterBuffers& b = buffers_.emplace_back();
   b.indexCount = static_cast<uint32_t>(adjacency.size());
@@ -260,8 +260,8 @@ Status ShaftTest::recordLight(VkCommandBuffer commands, const ShaftSetup& setup,
   rendering.pDepthAttachment = &depth;
   if (hasStencil(setup.depthFormat)) rendering.pStencilAttachment = &depth;
   inner.vk().CmdBeginRendering(commands, &rendering);
-  Status status = recordAir(view, commands, device().frame(), baked, draw);
-  if (status == Status::Ok) status = recordSky(view, commands, device().frame(), baked, draw);
+  Status status = recordAir(view, commands, baked, draw);
+  if (status == Status::Ok) status = recordSky(view, commands, baked, draw);
   inner.vk().CmdEndRendering(commands);
   return status;
 }
@@ -289,15 +289,15 @@ ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
          [&](VkCommandBuffer c) { return recordDepth(c, setup, draw, target); });
     if (target.sliced) {
       step(&out.seconds.slice, [&](VkCommandBuffer c) {
-        return recordSkySlice(view, c, device().frame(), baked, draw);
+        return recordSkySlice(view, c, baked, draw);
       });
     }
     if (shafts != nullptr) {
       step(&out.seconds.sunMap, [&](VkCommandBuffer c) {
-        return recordSunMap(shafts, c, device().frame(), draw.sun.direction, casters());
+        return recordSunMap(shafts, c, draw.sun.direction, casters());
       });
       step(&out.seconds.shafts, [&](VkCommandBuffer c) {
-        return recordShafts(shafts, view, c, device().frame(), baked, draw, casters());
+        return recordShafts(shafts, view, c, baked, draw, casters());
       });
     }
     step(&out.seconds.air,

@@ -22,8 +22,8 @@ ShaftRig::ShaftRig(Context* context, headless::Device& host, const ShaftSetup& s
 }
 
 ShaftRig::~ShaftRig() {
-  destroyView(view, FrameInfo{});
-  destroyShafts(shafts, FrameInfo{});
+  destroyView(view);
+  destroyShafts(shafts);
   device.vk().DestroyImageView(device.handle(), scene.view, nullptr);
   device.destroyObject(VK_OBJECT_TYPE_PIPELINE, pipeline);
   device.destroyObject(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout);

@@ -73,11 +73,11 @@ Terrain built(const TerrainDesc& desc) {
   terrain.height = desc.field.height;
   Refusal refusal;
   TerrainSize size;
-  EXPECT_EQ(terrainSize(desc, &size, &Refusal::take, &refusal), Status::Ok) << refusal.sentence;
+  EXPECT_EQ(terrainSize(desc, &size, {&Refusal::take, &refusal}), Status::Ok) << refusal.sentence;
   terrain.vertices.resize(size.vertexCount);
   terrain.indices.assign(size.indexCount, UINT32_MAX);
   EXPECT_EQ(buildTerrain(desc, terrain.vertices.data(), terrain.indices.data(), &terrain.place,
-                         &Refusal::take, &refusal),
+                         {&Refusal::take, &refusal}),
             Status::Ok)
       << refusal.sentence;
   return terrain;
@@ -92,7 +92,7 @@ AdjacencyReport reportOf(const Terrain& terrain) {
   view.indexCount = static_cast<uint32_t>(terrain.indices.size());
   std::vector<uint32_t> adjacency(terrain.indices.size() * 2);
   AdjacencyReport report;
-  EXPECT_EQ(buildAdjacency(view, adjacency.data(), &report, nullptr, nullptr), Status::Ok);
+  EXPECT_EQ(buildAdjacency(view, adjacency.data(), &report, {}), Status::Ok);
   return report;
 }
 
@@ -218,7 +218,7 @@ TEST(TerrainMesh, LiesWhereItsLatitudeLongitudeAndHeadingSay) {
   Patch patch(5, 7, 1000.0, flat);
   patch.desc.heading = 0.0;
   Parameters earth;
-  ASSERT_EQ(findPreset("earth", &earth), Status::Ok);
+  ASSERT_EQ(findPreset("earth", &earth, {}), Status::Ok);
   const auto camera = [&](double heading) {
     return cameraFromGeodetic(earth, patch.desc.latitude, patch.desc.longitude, 0.0, heading, 0.0,
                               0.0, 1.0);
@@ -245,7 +245,7 @@ TEST(TerrainMesh, NormalsAreThoseOfTheSlope) {
   patch.desc.radius_m = 1e9;  // Flat.
   const Terrain terrain = built(patch.desc);
   Parameters earth;
-  ASSERT_EQ(findPreset("earth", &earth), Status::Ok);
+  ASSERT_EQ(findPreset("earth", &earth, {}), Status::Ok);
   const Camera east = cameraFromGeodetic(earth, patch.desc.latitude, patch.desc.longitude, 0.0,
                                          kPi / 2.0, 0.0, 0.0, 1.0);
   for (size_t i = 0; i < terrain.points(); ++i) {  // Rises eastwards by 1 in 5.
@@ -360,7 +360,7 @@ void expectRefused(const TerrainDesc& desc, std::initializer_list<const char*> w
   size.vertexCount = 77;
   Refusal refusal;
   if (sizeToo) {
-    refusal.expect(terrainSize(desc, &size, &Refusal::take, &refusal), Status::InvalidArgument,
+    refusal.expect(terrainSize(desc, &size, {&Refusal::take, &refusal}), Status::InvalidArgument,
                    words);
     EXPECT_EQ(size.vertexCount, 77u);
   }
@@ -369,7 +369,7 @@ void expectRefused(const TerrainDesc& desc, std::initializer_list<const char*> w
   TerrainPlace place;
   Refusal other;
   const Status status =
-      buildTerrain(desc, vertices.data(), indices.data(), &place, &Refusal::take, &other);
+      buildTerrain(desc, vertices.data(), indices.data(), &place, {&Refusal::take, &other});
   other.expect(status, Status::InvalidArgument, words);
   EXPECT_EQ(std::count(indices.begin(), indices.end(), 77u), 6000);
 }
@@ -417,13 +417,12 @@ TEST(TerrainMesh, NeedsItsArraysButNotItsPlace) {
   std::vector<TerrainVertex> vertices(13);
   std::vector<uint32_t> indices(42);
   Refusal refusal;
-  EXPECT_EQ(buildTerrain(patch.desc, vertices.data(), indices.data(), nullptr, nullptr, nullptr),
-            Status::Ok);
+  EXPECT_EQ(buildTerrain(patch.desc, vertices.data(), indices.data(), nullptr, {}), Status::Ok);
   refusal.expect(
-      buildTerrain(patch.desc, nullptr, indices.data(), nullptr, &Refusal::take, &refusal),
+      buildTerrain(patch.desc, nullptr, indices.data(), nullptr, {&Refusal::take, &refusal}),
       Status::InvalidArgument, {"vertices is null"});
   refusal.expect(
-      buildTerrain(patch.desc, vertices.data(), nullptr, nullptr, &Refusal::take, &refusal),
+      buildTerrain(patch.desc, vertices.data(), nullptr, nullptr, {&Refusal::take, &refusal}),
       Status::InvalidArgument, {"indices is null"});
 }
 

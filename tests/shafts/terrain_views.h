@@ -27,7 +27,7 @@ class TerrainShaftTest : public ShaftTest {
     addCaster(realTerrain(parameters));
   }
   void TearDown() override {
-    destroyTables(baked, FrameInfo{});
+    destroyTables(baked);
     ShaftTest::TearDown();
   }
   SkyDraw drawOf(const TerrainView& v, VkExtent2D size) {

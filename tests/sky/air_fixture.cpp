@@ -43,7 +43,7 @@ void AirTest::TearDownTestSuite() {
   if (o.device != nullptr) {
     const engine::Dispatch& vk = o.device->vk();
     const VkDevice handle = o.device->handle();
-    sky::AirVolume::destroy(o.volume, FrameInfo{});
+    sky::AirVolume::destroy(o.volume);
     for (VkPipeline pipeline : o.pipelines)
       vk.DestroyPipeline(handle, pipeline, o.device->allocator());
     vk.DestroyPipelineLayout(handle, o.layout, o.device->allocator());

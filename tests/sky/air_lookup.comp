@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const int kWhat = 0;  // AirAsk of air_fixture.h
 
 #include "alpenglow/atmosphere.glsl"
-#include "alpenglow/air_volume.glsl"
+#include "common/air_volume.glsl"
 
 layout(set = 2, binding = 0, std430) readonly buffer Queries { vec4 queries[]; };
 struct Answer {

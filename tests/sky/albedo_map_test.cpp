@@ -103,7 +103,7 @@ class MapDrawing {
   MapDrawing(headless::Device& device, Context* context, const Tables* tables)
       : device_(device), context_(context), tables_(tables) {}
   ~MapDrawing() {
-    for (const auto& entry : views_) destroyView(entry.second, FrameInfo{});
+    for (const auto& entry : views_) destroyView(entry.second);
   }
   MapDrawing(const MapDrawing&) = delete;
   MapDrawing& operator=(const MapDrawing&) = delete;
@@ -120,7 +120,7 @@ class MapDrawing {
     targetDesc.extent = sky.viewport.extent;
     Target target(device_, targetDesc);
     return target.draw([&](VkCommandBuffer commands) {
-      return recordSky(view, commands, device_.frame(), tables_, sky) == Status::Ok;
+      return recordSky(view, commands, tables_, sky) == Status::Ok;
     });
   }
 

@@ -61,7 +61,7 @@ TEST_F(SkyTest, BadDrawsAreRefusedWithTheValue) {
       SkyDraw draw = goodDraw();
       bad.spoil(draw);
       message().clear();
-      EXPECT_EQ(recordSky(view(), commands, device().frame(), tables(), draw),
+      EXPECT_EQ(recordSky(view(), commands, tables(), draw),
                 Status::InvalidArgument)
           << bad.expected;
       EXPECT_TRUE(hasAll(message(), bad.expected)) << bad.expected << ": " << message();
@@ -83,7 +83,7 @@ TEST_F(SkyTest, FisheyesMayGoAllRound) {
   Target target(device(), desc);
   draw.camera.fov = 6.3;
   target.draw([&](VkCommandBuffer commands) {
-    EXPECT_EQ(recordSky(view(Projection::Fisheye), commands, device().frame(), tables(), draw),
+    EXPECT_EQ(recordSky(view(Projection::Fisheye), commands, tables(), draw),
               Status::InvalidArgument);
     EXPECT_TRUE(hasAll(message(), "Camera::fov|6.3|2 pi")) << message();
     return true;
@@ -107,23 +107,22 @@ TEST_F(StandardSkyTest, TablesMustFitTheView) {
   desc.extent = {16, 12};
   Target target(device(), desc);
   target.draw([&](VkCommandBuffer commands) {
-    const FrameInfo frame = device().frame();
     message().clear();
-    EXPECT_EQ(recordSky(view(), commands, frame, unbaked, goodDraw()), Status::NotReady);
+    EXPECT_EQ(recordSky(view(), commands, unbaked, goodDraw()), Status::NotReady);
     EXPECT_EQ(message(), "");  // It is no error.
-    EXPECT_EQ(recordSky(view(), commands, frame, packed, goodDraw()), Status::InvalidArgument);
+    EXPECT_EQ(recordSky(view(), commands, packed, goodDraw()), Status::InvalidArgument);
     EXPECT_TRUE(hasAll(message(), "packed|ViewDesc::mie says in full")) << message();
-    EXPECT_EQ(recordSky(foreign, commands, frame, tables(), goodDraw()), Status::InvalidArgument);
+    EXPECT_EQ(recordSky(foreign, commands, tables(), goodDraw()), Status::InvalidArgument);
     EXPECT_TRUE(hasAll(lastDiagnostic(), "another context")) << lastDiagnostic();
-    EXPECT_EQ(recordSky(nullptr, commands, frame, tables(), goodDraw()), Status::InvalidArgument);
-    EXPECT_EQ(recordSky(view(), commands, frame, nullptr, goodDraw()), Status::InvalidArgument);
-    EXPECT_EQ(recordSky(view(), VK_NULL_HANDLE, frame, tables(), goodDraw()),
+    EXPECT_EQ(recordSky(nullptr, commands, tables(), goodDraw()), Status::InvalidArgument);
+    EXPECT_EQ(recordSky(view(), commands, nullptr, goodDraw()), Status::InvalidArgument);
+    EXPECT_EQ(recordSky(view(), VK_NULL_HANDLE, tables(), goodDraw()),
               Status::InvalidArgument);
     return true;
   });
-  destroyView(foreign, FrameInfo{});
+  destroyView(foreign);
   destroyContext(other);
-  destroyTables(unbaked, FrameInfo{});
+  destroyTables(unbaked);
 }
 
 TEST_F(SkyTest, BadViewsAreRefusedWithTheValue) {
@@ -170,7 +169,7 @@ TEST_F(SkyTest, BadViewsAreRefusedWithTheValue) {
   View* made = nullptr;
   EXPECT_EQ(createView(nullptr, ViewDesc{}, &made), Status::InvalidArgument);
   EXPECT_EQ(createView(context(), ViewDesc{}, nullptr), Status::InvalidArgument);
-  destroyView(nullptr, FrameInfo{});
+  destroyView(nullptr);
 }
 
 }  // namespace

@@ -155,7 +155,7 @@ TEST_F(SkyTest, OnlyTheViewportIsDrawn) {
 // Cameras and suns by their angles, against vectors written down by hand.
 TEST(CameraTest, AnglesOfTheGround) {
   Parameters earth;
-  ASSERT_EQ(findPreset("earth", &earth), Status::Ok);
+  ASSERT_EQ(findPreset("earth", &earth, {}), Status::Ok);
   const auto expect = [](const double got[3], const Vec& wanted, const char* what) {
     for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], 1e-9) << what << " " << i;
   };

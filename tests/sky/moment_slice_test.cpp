@@ -239,7 +239,7 @@ TEST_F(MomentSliceTest, ACoarserLevelHasACoarserSlice) {
       }
     }
     std::printf("\n");
-    destroyTables(tables, device().frame());
+    destroyTables(tables);
   }
 }
 

@@ -45,7 +45,7 @@ TableDesc smallTables(MieStorage mie) {
 
 Parameters preset(const char* name) {
   Parameters parameters;
-  EXPECT_EQ(findPreset(name, &parameters), Status::Ok) << name;
+  EXPECT_EQ(findPreset(name, &parameters, {}), Status::Ok) << name;
   return parameters;
 }
 
@@ -55,7 +55,7 @@ void bakeAll(headless::Device& device, Tables* tables) {
   while (!progress.done) {
     const bool ran = device.run(
         [&](VkCommandBuffer commands) {
-          return recordBake(tables, commands, device.frame(), 0, &progress) == Status::Ok;
+          return recordBake(tables, commands, 0, &progress) == Status::Ok;
         },
         &error);
     ASSERT_TRUE(ran) << error;
@@ -70,7 +70,7 @@ std::vector<ProbeAnswer> probe(headless::Device& device, const Tables* tables,
       count * kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &error);
   const bool ran = device.run(
       [&](VkCommandBuffer commands) {
-        return recordProbe(tables, commands, device.frame(), queries.data(), count,
+        return recordProbe(tables, commands, queries.data(), count,
                            buffer.buffer()) == Status::Ok;
       },
       &error);
@@ -135,10 +135,10 @@ void SkyTest::SetUp() {
 
 void SkyTest::TearDownTestSuite() {
   Shared& s = shared();
-  for (const auto& entry : s.views) destroyView(entry.second, FrameInfo{});
-  for (const auto& entry : s.slicedViews) destroyView(entry.second, FrameInfo{});
-  for (View* one : s.otherViews) destroyView(one, FrameInfo{});
-  for (const auto& entry : s.tables) destroyTables(entry.second, FrameInfo{});
+  for (const auto& entry : s.views) destroyView(entry.second);
+  for (const auto& entry : s.slicedViews) destroyView(entry.second);
+  for (View* one : s.otherViews) destroyView(one);
+  for (const auto& entry : s.tables) destroyTables(entry.second);
   destroyContext(s.context);
   s = Shared{};
 }
@@ -158,7 +158,7 @@ Context* SkyTest::context() {
   desc.getInstanceProcAddr = s.vulkan->getInstanceProcAddr();
   desc.capabilities = kCapabilityBake | kCapabilitySky | kCapabilityAir | kCapabilityShafts |
                       kCapabilityShadowVolumes;
-  desc.diagnostic = [](void*, const Diagnostic& diagnostic) {
+  desc.diagnostics.report = [](void*, const Diagnostic& diagnostic) {
     shared().message = diagnostic.message;
   };
   EXPECT_EQ(createContext(desc, &s.context), Status::Ok) << message();
@@ -223,14 +223,14 @@ View* SkyTest::slicedView(Projection projection) {
     }
     desc.skySlice = shape != nullptr ? shape : tables();
     EXPECT_EQ(createView(context(), desc, &slot), Status::Ok) << message();
-    destroyTables(shape, device().frame());
+    destroyTables(shape);
   }
   return slot;
 }
 
 void SkyTest::recordSlice(View* sliced, const Tables* with, const SkyDraw& draw) {
   run([&](VkCommandBuffer commands) {
-    return recordSkySlice(sliced, commands, device().frame(), with, draw) == Status::Ok;
+    return recordSkySlice(sliced, commands, with, draw) == Status::Ok;
   });
 }
 
@@ -248,7 +248,7 @@ Picture SkyTest::picture(View* with, Tables* baked, const SkyDraw& draw,
                          const TargetDesc& targetDesc) {
   Target target(device(), targetDesc);
   return target.draw([&](VkCommandBuffer commands) {
-    const Status status = recordSky(with, commands, device().frame(), baked, draw);
+    const Status status = recordSky(with, commands, baked, draw);
     EXPECT_EQ(status, Status::Ok) << message();
     return status == Status::Ok;
   });

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <alpenglow/alpenglow.h>
+#include <alpenglow/headless_target.h>
 #include <alpenglow/query.h>
 #include <alpenglow/view.h>
 
 #include <array>
 #include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -33,58 +35,30 @@ struct Picture {
   const float* at(uint32_t x, uint32_t y) const { return &data[4 * (size_t{y} * width + x)]; }
 };
 
-/// What a picture is drawn into.
-struct TargetDesc {
-  VkExtent2D extent = {48, 32};
-  VkFormat color = VK_FORMAT_R32G32B32A32_SFLOAT;  ///< Or R16G16B16A16_SFLOAT.
-  VkFormat depth = VK_FORMAT_UNDEFINED;
-  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;  ///< Resolved by averaging.
-  bool renderPass = false;                                ///< Else dynamic rendering.
+/// What a picture is drawn into: small, unless a test says more.
+struct TargetDesc : headless::TargetDesc {
+  TargetDesc() { extent = {48, 32}; }
   float clearDepth = 1.0f;
 };
 
 /// Every pixel holds this before something is drawn.
 inline constexpr float kClear = -7.0f;
 
-/// Images to draw into, and the way back to the CPU. Destroyed before its device.
+/// headless::Target, whose failures fail the test. Destroyed before its device.
 class Target {
  public:
   Target(headless::Device& device, const TargetDesc& desc);
-  ~Target();
-  Target(const Target&) = delete;
-  Target& operator=(const Target&) = delete;
 
-  VkRenderPass renderPass() const { return renderPass_; }
+  VkRenderPass renderPass() const { return target_->renderPass(); }
   /// Clears, lets `inside` record into the rendering scope, submits, waits and reads back.
   Picture draw(const std::function<bool(VkCommandBuffer)>& inside);
   /// Inside the scope: fills a rectangle of colour and depth, as a host's nearer object would.
   void fill(VkCommandBuffer commands, const VkRect2D& area, float color, float depth);
 
  private:
-  struct RawImage {
-    VkImage image = VK_NULL_HANDLE;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    VkImageView view = VK_NULL_HANDLE;
-  };
-  RawImage makeImage(VkFormat format, VkSampleCountFlagBits samples, VkImageUsageFlags usage,
-                     VkImageAspectFlags aspect);
-  void makeRenderPass();
-  void begin(VkCommandBuffer commands);
-  void end(VkCommandBuffer commands);
-  void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,
-               const ImageState& before, const ImageState& after);
-  bool multisampled() const { return desc_.samples != VK_SAMPLE_COUNT_1_BIT; }
-  template <class Function>
-  Function function(const char* name) {
-    return reinterpret_cast<Function>(device_.function(name));
-  }
-
   headless::Device& device_;
   TargetDesc desc_;
-  RawImage color_, resolved_, depth_;
-  VkRenderPass renderPass_ = VK_NULL_HANDLE;
-  VkFramebuffer framebuffer_ = VK_NULL_HANDLE;
-  headless::HostBuffer readback_;
+  std::unique_ptr<headless::Target> target_;
 };
 
 /// Of the standard solver: sizes and orders whose bake takes about a CPU second.

@@ -32,7 +32,7 @@ class StandardSliceTest : public StandardSkyTest {
 
   void slice(View* view, const Tables* tables, const SkyDraw& draw) {
     run([&](VkCommandBuffer commands) {
-      return recordSkySlice(view, commands, device().frame(), tables, draw) == Status::Ok;
+      return recordSkySlice(view, commands, tables, draw) == Status::Ok;
     });
   }
 
@@ -108,14 +108,13 @@ TEST_F(StandardSliceTest, RefusesViewsAndTablesThatDoNotFit) {
   ASSERT_EQ(createTables(context(), preset("earth"), other, &odd), Status::Ok);
   bakeAll(device(), odd);
   run([&](VkCommandBuffer commands) {
-    const FrameInfo frame = device().frame();
-    EXPECT_EQ(recordSkySlice(plain, commands, frame, tables(), draw), Status::InvalidArgument);
+    EXPECT_EQ(recordSkySlice(plain, commands, tables(), draw), Status::InvalidArgument);
     EXPECT_NE(message().find("ViewDesc::skySlice"), std::string::npos) << message();
-    EXPECT_EQ(recordSkySlice(sliced, commands, frame, odd, draw), Status::InvalidArgument);
+    EXPECT_EQ(recordSkySlice(sliced, commands, odd, draw), Status::InvalidArgument);
     EXPECT_NE(message().find("mu and"), std::string::npos) << message();
     return true;
   });
-  destroyTables(odd, device().frame());
+  destroyTables(odd);
   ViewDesc desc;
   desc.solver = Solver::Standard;
   desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;

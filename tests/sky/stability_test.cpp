@@ -5,6 +5,7 @@
 #include <string>
 
 #include "atmosphere/sky/sky_pass.h"
+#include "tests/model/heard.h"
 #include "tests/sky/sky_fixture.h"
 
 namespace alpenglow::testing {
@@ -23,7 +24,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, StabilityTest, kBothSolvers, solverName);
 // positions rounded to double.
 TEST(AltitudeTest, SurvivesTheWayToTheGpu) {
   Parameters earth;
-  ASSERT_EQ(findPreset("earth", &earth), Status::Ok);
+  ASSERT_EQ(findPreset("earth", &earth, {}), Status::Ok);
   for (int i = 0; i < 500; ++i) {
     const double latitude = kPi * (i / 499.0 - 0.5), longitude = 2.4 * i;
     for (const double altitude : {-100.0, 0.0, 2.03, 59999.7, 3.6e7}) {
@@ -55,8 +56,8 @@ TEST_P(StabilityTest, BelowTheGroundIsOnTheGround) {
 // the zenith to the nadir; by day and by night from a slice too.
 TEST_P(StabilityTest, EveryPictureIsFiniteAndNotNegative) {
   View* const sliced = slicedView(Projection::Fisheye);
-  for (uint32_t i = 0; i < presetCount(); ++i) {
-    const char* const name = presetName(i);
+  for (const Preset& listed : testing::allPresets()) {
+    const char* const name = listed.name;
     const Parameters p = preset(name);
     Tables* const baked = tables(name);
     const double top = p.topRadius_m - p.bottomRadius_m;

@@ -31,7 +31,7 @@ TEST_F(SkyTest, RenderPassesAndDynamicRenderingDrawTheSame) {
     viewDesc.renderPass = target.renderPass();
     View* const made = makeView(viewDesc);
     const Picture drawn = target.draw([&](VkCommandBuffer commands) {
-      return recordSky(made, commands, device().frame(), tables(), draw) == Status::Ok;
+      return recordSky(made, commands, tables(), draw) == Status::Ok;
     });
     EXPECT_EQ(drawn.data, dynamic.data) << message();
   }
@@ -56,7 +56,7 @@ TEST_F(SkyTest, NearerObjectsKeepTheirPixels) {
       const float nearly = reversed ? 1e-4f : 1.0f - 1e-4f;  // Far away, but not at the far plane.
       const Picture drawn = target.draw([&](VkCommandBuffer commands) {
         target.fill(commands, object, 3.0f, nearly);
-        return recordSky(made, commands, device().frame(), tables(), draw) == Status::Ok;
+        return recordSky(made, commands, tables(), draw) == Status::Ok;
       });
       for (uint32_t y = 0; y < drawn.height; ++y) {
         for (uint32_t x = 0; x < drawn.width; ++x) {

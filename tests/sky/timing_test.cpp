@@ -58,7 +58,7 @@ class TimingTest : public SkyTest {
 
   double sliceCost(View* view, const Tables* tables, const SkyDraw& draw) {
     return cost([&](VkCommandBuffer commands) {
-      return recordSkySlice(view, commands, device().frame(), tables, draw) == Status::Ok;
+      return recordSkySlice(view, commands, tables, draw) == Status::Ok;
     });
   }
 
@@ -79,7 +79,7 @@ class TimingTest : public SkyTest {
       rendering.colorAttachmentCount = 1;
       rendering.pColorAttachments = &color;
       function<PFN_vkCmdBeginRendering>("vkCmdBeginRendering")(commands, &rendering);
-      const Status status = recordSky(view, commands, device().frame(), tables, draw);
+      const Status status = recordSky(view, commands, tables, draw);
       function<PFN_vkCmdEndRendering>("vkCmdEndRendering")(commands);
       return status == Status::Ok;
     });
@@ -153,7 +153,7 @@ TEST_F(TimingTest, ASliceMakesAPixelOfSkyCheaper) {
     std::printf("standard, %s Mie: sky %.1f ns/pixel from the tables, %.1f from a slice\n",
                 mie == MieStorage::Full ? "full" : "packed", direct, sliced);
     EXPECT_LT(sliced, 0.8 * direct);
-    destroyTables(tables, device().frame());
+    destroyTables(tables);
   }
 }
 
@@ -204,7 +204,7 @@ TEST_F(TimingTest, APixelOfMomentsFromASlice) {
     EXPECT_LT(sliced, 3.5 * fetches) << look.name;
     EXPECT_LT(sliced, 0.05 * direct) << look.name;
   }
-  destroyTables(tables, device().frame());
+  destroyTables(tables);
 }
 
 }  // namespace

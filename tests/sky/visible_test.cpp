@@ -93,7 +93,7 @@ Projection projectionOf(int i) {
 
 TEST(VisibleTest, IsConservativeAndUseful) {
   Parameters earth;
-  ASSERT_EQ(findPreset("earth", &earth), Status::Ok);
+  ASSERT_EQ(findPreset("earth", &earth, {}), Status::Ok);
   RandomDraws random(earth);
   int unseen[3] = {}, culled[3] = {};
   for (int i = 0; i < 6000; ++i) {
@@ -122,7 +122,7 @@ TEST(VisibleTest, IsConservativeAndUseful) {
 // Each pixel is in one part, which knows what it sees.
 TEST(VisibleTest, PartsAreTheViewport) {
   Parameters earth;
-  ASSERT_EQ(findPreset("earth", &earth), Status::Ok);
+  ASSERT_EQ(findPreset("earth", &earth, {}), Status::Ok);
   RandomDraws random(earth);
   uint32_t mostParts = 0;
   for (int i = 0; i < 300; ++i) {
@@ -150,7 +150,7 @@ TEST(VisibleTest, PartsAreTheViewport) {
 // A camera that stands upright sees the sky's part above and the ground's below, no more.
 TEST(VisibleTest, PartsAreFew) {
   Parameters earth;
-  ASSERT_EQ(findPreset("earth", &earth), Status::Ok);
+  ASSERT_EQ(findPreset("earth", &earth, {}), Status::Ok);
   const SkyDraw draw =
       makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(5.0), 0.0, radians(60.0)),
                unit({1.0, 1.0, 1.0}), {1024, 768});

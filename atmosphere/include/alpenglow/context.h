@@ -4,8 +4,6 @@
 
 #include <alpenglow/types.h>
 
-#include <cstddef>
-
 namespace alpenglow {
 inline namespace v1 {
 
@@ -22,20 +20,21 @@ enum Capability : uint32_t {
 };
 using CapabilityFlags = uint32_t;
 
-/// What a device must offer, asked before the host makes its VkDevice.
+/// Device features beyond VkPhysicalDeviceFeatures that the library uses.
+enum DeviceFeature : uint32_t {
+  kFeatureSynchronization2 = 1u << 0,  ///< VkPhysicalDeviceVulkan13Features::synchronization2.
+  kFeatureDynamicRendering = 1u << 1,  ///< Likewise; for shafts, and views that name no
+                                       ///< VkRenderPass.
+};
+using DeviceFeatureFlags = uint32_t;
+
+/// What a device must offer and a host must enable.
 struct Requirements {
-  uint32_t apiVersion = 0;        ///< Least VkApplicationInfo::apiVersion and device version.
-  bool synchronization2 = false;  ///< VkPhysicalDeviceVulkan13Features::synchronization2.
-  bool dynamicRendering = false;  ///< Likewise; for shafts, and views that name no VkRenderPass.
+  uint32_t apiVersion = 0;           ///< Least VkApplicationInfo::apiVersion and device version.
+  CapabilityFlags capabilities = 0;  ///< Of those asked for, the ones that this device has.
+  DeviceFeatureFlags deviceFeatures = 0;
   VkPhysicalDeviceFeatures features = {};  ///< Core features that must be enabled.
 };
-
-/// Fills `out` with what `wanted` needs, and checks that `physicalDevice` has it. When it has not,
-/// returns Unsupported and reports a sentence naming every gap to `diagnostic` (may be null).
-/// Thread-safe.
-Status queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
-                         VkPhysicalDevice physicalDevice, CapabilityFlags wanted, Requirements* out,
-                         DiagnosticFn diagnostic, void* user);
 
 /// Lets a host put SPIR-V of its own in place of a shader of ours: docs/shaders.md.
 struct ShaderHook {
@@ -62,24 +61,40 @@ struct ContextDesc {
   uint32_t queueFamilyCount = 0;            ///< More than one makes images concurrent.
   VkPipelineCache pipelineCache = VK_NULL_HANDLE;
   const VkAllocationCallbacks* allocator = nullptr;
-  const MemoryHooks* memory = nullptr;  ///< Copied.
-  const ShaderHook* shaders = nullptr;  ///< Copied.
-  DiagnosticFn diagnostic = nullptr;
-  void* user = nullptr;
+  MemoryHooks memory;  ///< Copied. All zero: none.
+  ShaderHook shaders;  ///< Copied. All zero: none.
+  DiagnosticSink diagnostics;
   bool debugNames = false;  ///< The host enabled VK_EXT_debug_utils on the instance.
 };
 
+/// Before vkCreateDevice. Reads instance, physicalDevice, getInstanceProcAddr, capabilities and
+/// diagnostics of `desc`, and fills `out`. Unsupported, with a sentence that names every gap, where
+/// the device lacks a capability; `out` then holds what the remaining capabilities need, and may be
+/// used with them. A device or instance below Vulkan 1.3 is named as the reason where it is.
+/// Thread-safe.
+ALPENGLOW_API Status queryRequirements(const ContextDesc& desc, Requirements* out);
+
 /// Makes a context. Its functions are thread-safe; objects made on it (tables, views) are
 /// externally synchronised, and different ones may be recorded in parallel.
-Status createContext(const ContextDesc& desc, Context** out);
+ALPENGLOW_API Status createContext(const ContextDesc& desc, Context** out);
 
-/// Destroys the context and what still waits for a frame. The host guarantees that the GPU is done
-/// with it. Tables and views left alive are reported through the diagnostic callback, how many of
-/// each, and are lost: they must not be destroyed afterwards.
+/// The device must have finished with everything of the context. Tables and views that are alive are
+/// destroyed, too: they must not be used afterwards. Null is ignored, as by every destroy function.
 void destroyContext(Context* context);
 
-/// Destroys what frames up to `completed` used and destroyed objects left behind.
-void collect(Context* context, uint64_t completed);
+/// States the frame numbers of all other calls; once a frame, before anything of the frame is
+/// recorded or destroyed. `submitting` is the frame being recorded (from 1), `completed` the newest
+/// frame that has finished on every queue (0: none). Neither ever falls, and completed <=
+/// submitting; else InvalidArgument with a sentence, and the numbers stay. What a destroy function
+/// marks in frame n is freed by the first advanceFrame whose `completed` is at least n. Without any
+/// call the frame is 1. A host that waits for each frame passes (n + 1, n).
+Status advanceFrame(Context* context, uint64_t submitting, uint64_t completed);
+
+/// The commands recorded in `frame` (above the completed one) will never execute, for example since
+/// the swapchain was lost: call it before the next frame is recorded. LUTs, shadow maps, uploads and
+/// bake slices of that frame count as not recorded. A bake continues before that frame's first
+/// slice; from the start if slices of later frames were recorded.
+Status abandonFrame(Context* context, uint64_t frame);
 
 /// What the context holds now; for reports and tests. Counters only ever rise, except `bytes`,
 /// `images` and `buffers`, which are what is alive.
@@ -93,7 +108,7 @@ struct ResourceReport {
   uint64_t dispatches = 0;
   uint64_t draws = 0;
 };
-void resourceReport(const Context* context, ResourceReport* out);
+ALPENGLOW_API void resourceReport(const Context* context, ResourceReport* out);
 
 }  // namespace v1
 }  // namespace alpenglow

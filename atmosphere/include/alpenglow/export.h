@@ -1,4 +1,4 @@
-// The mark of functions that hosts call.
+// Marks the functions of the library.
 #pragma once
 
 #ifndef ALPENGLOW_API

@@ -4,8 +4,6 @@
 
 #include <alpenglow/types.h>
 
-#include <cstddef>
-
 namespace alpenglow {
 inline namespace v1 {
 
@@ -58,10 +56,9 @@ struct AdjacencyReport {
 /// `adjacency` must not overlap the input; `report` may be null. InvalidArgument for a null array,
 /// a stride below 12, a count that is no multiple of 3 or too large, an index beyond the vertices
 /// and a position that is not finite, OutOfHostMemory where some 70 bytes a triangle can't be had;
-/// a sentence goes to `diagnostic` (may be null), and nothing is written then. Takes
-/// O(n log n). Thread-safe.
-Status buildAdjacency(const MeshView& mesh, uint32_t* adjacency, AdjacencyReport* report,
-                      DiagnosticFn diagnostic, void* user);
+/// a sentence goes to `sink`, and nothing is written then. Takes O(n log n). Thread-safe.
+ALPENGLOW_API Status buildAdjacency(const MeshView& mesh, uint32_t* adjacency,
+                                    AdjacencyReport* report, const DiagnosticSink& sink);
 
 }  // namespace v1
 }  // namespace alpenglow

@@ -4,8 +4,6 @@
 
 #include <alpenglow/types.h>
 
-#include <cstddef>
-
 namespace alpenglow {
 inline namespace v1 {
 
@@ -57,20 +55,24 @@ struct Parameters {
   double sunAngularRadius = 0.0;  ///< Softens the terminator only; 0: a parallel beam.
 };
 
-/// Number of presets, and the name and source of each (static strings; null past the end).
-uint32_t presetCount();
-const char* presetName(uint32_t index);
-const char* presetSource(uint32_t index);
-/// A line for lists: what the preset is.
-const char* presetDescription(uint32_t index);
+/// A preset: static strings and values.
+struct Preset {
+  const char* name = nullptr;
+  const char* source = nullptr;
+  const char* description = nullptr;  ///< One line for lists.
+  Parameters parameters;
+};
 
-/// Fills `out` with the preset called `name`. InvalidArgument when no preset has this name.
-Status findPreset(const char* name, Parameters* out);
+/// All presets, static. `count` may be null.
+ALPENGLOW_API const Preset* presets(uint32_t* count);
 
-/// Checks every field. When one is wrong, returns InvalidArgument and writes to `message` (of
-/// `messageSize` bytes, may be 0) one sentence that names the field as atmosphere files spell it,
-/// the value given and what is allowed. Thread-safe.
-Status validate(const Parameters& parameters, char* message, size_t messageSize);
+/// Fills `out` with the preset called `name`. InvalidArgument, with a sentence that lists the
+/// names, when there is none.
+ALPENGLOW_API Status findPreset(const char* name, Parameters* out, const DiagnosticSink& sink);
+
+/// Checks every field. InvalidArgument with one sentence that names the field as atmosphere files
+/// spell it, the value given and what is allowed. Thread-safe.
+ALPENGLOW_API Status validate(const Parameters& parameters, const DiagnosticSink& sink);
 
 }  // namespace v1
 }  // namespace alpenglow

@@ -1,6 +1,6 @@
-// What a scene calls for: needs in, plan out. A plan says which effects are simulated, over which
-// part of the tables, at which resolution and by which method, and for each choice why and what it
-// saves. Pure functions; no Vulkan call; thread-safe.
+// What a scene calls for: a request in, descriptions out. A plan says which effects are simulated,
+// over which part of the tables, at which resolution and by which method, and for each choice why
+// and what it saves. Pure functions; no Vulkan call; thread-safe.
 #pragma once
 
 #include <alpenglow/shafts.h>
@@ -10,37 +10,40 @@ namespace alpenglow {
 inline namespace v1 {
 
 /// What may come into view. Bits.
-enum Seen : uint32_t {
-  kSeenSky = 1u << 0,
-  kSeenGround = 1u << 1,   ///< The planet's own surface.
-  kSeenTerrain = 1u << 2,  ///< The host's opaque scene, in a depth image.
-  kSeenSpace = 1u << 3,    ///< Pixels whose rays meet no air.
-  kSeenSun = 1u << 4,      ///< The sun's disc.
+enum VisibilityFlag : uint32_t {
+  kVisibleSky = 1u << 0,
+  kVisibleGround = 1u << 1,  ///< The planet's own surface.
+  kVisibleScene = 1u << 2,   ///< The host's opaque scene, in a depth image.
+  kVisibleSpace = 1u << 3,   ///< Pixels whose rays meet no air.
+  kVisibleSun = 1u << 4,     ///< The sun's disc.
 };
-using SeenFlags = uint32_t;
+using VisibilityFlags = uint32_t;
 
+/// Auto: as the plan finds best.
 enum class Force : uint32_t { Auto, On, Off };
 
-/// What a scene may ask for while its plan holds. Zero means the default.
-struct Needs {
-  double altitudeFrom_m = 0.0;  ///< Of the camera.
-  double altitudeTo_m = 0.0;    ///< 0: no limit.
+/// What a scene may ask for while its plan holds. Zero is the default of each member.
+struct PlanRequest {
+  TableDesc
+      tables;  ///< Values that are given (solver, orders, quality, sizes, format ...) are kept.
+  Projection projection = Projection::Perspective;  // Replaced by ViewDesc view.
+  double altitudeFrom_m = 0.0;                      ///< Of the camera.
+  double altitudeTo_m = 0.0;                        ///< 0: no limit.
   /// Of the sun, seen from the camera's places and from the ground in view; radians. Both 0: any.
   double sunElevationFrom = 0.0, sunElevationTo = 0.0;
   bool sunFixed = false;  ///< With both of the above equal, 0 too: this elevation and no other.
-  SeenFlags seen = 0;     ///< 0: anything.
-  double sunDiscRadius = 0.0;  ///< The greatest that is drawn; 0: none.
+  bool casters = false;   ///< Of light shafts.
+  VisibilityFlags visible = 0;  ///< 0: anything.
+  double sunDiscRadius = 0.0;   ///< The greatest that is drawn; 0: none.
   /// Factor from radiance (for Parameters::solarIrradiance) to a picture whose white is 1: the
   /// greatest that is used. Light of less than half an 8-bit step under it can't be seen. 0: any.
-  double exposureTo = 0.0;
-  bool occluders = false;  ///< Casters of light shafts.
-  Projection projection = Projection::Perspective;
-  double error = 0.0;          ///< Wanted 95th percentile of the relative error; 0: 0.01.
+  double exposure = 0.0;
+  double errorTarget = 0.0;    ///< 95th percentile of the relative error; 0: 0.01.
   uint64_t budgetBytes = 0;    ///< Of device memory that stays; 0: none.
   double budgetSeconds = 0.0;  ///< Of a bake; 0: none.
   /// Of the host's own timings of recordBake; 0: that of lavapipe on 2 cores (docs/plan.md).
   double secondsPerUnit = 0.0;
-  Force effects[kEffectCount] = {};
+  Force effects[kEffectCount] = {};  ///< By Effect.
 };
 
 /// What something costs, or saves.
@@ -54,81 +57,67 @@ struct PlanCost {
   uint64_t units = 0;       ///< Of a bake: about one table fetch each.
 };
 
-struct EffectChoice {
-  bool on = false;
-  bool forced = false;
-  char reason[192] = "";  ///< A sentence.
-  PlanCost saves;         ///< Off: against the same plan with it. On: zeros.
-};
-
-/// A part of the domain, a size or a method.
+/// An effect, a part of the domain, a size or a method.
 struct PlanChoice {
-  const char* name = "";  ///< Such as "sun_zenith" or "quality"; static.
-  char value[96] = "";
-  char reason[192] = "";
-  PlanCost saves;
+  char name[32] = "";     ///< An effect's name, or "sun_zenith", "quality" ...
+  char value[96] = "";    ///< "on" or "off" of effects.
+  char reason[192] = "";  ///< A sentence.
+  bool on = false;        ///< Of effects; others are on.
+  bool forced = false;    ///< The request decided it.
+  PlanCost saves;  ///< Of an effect that is off: against the same plan with it. Else against the
+                   ///< default of the choice.
 };
-inline constexpr uint32_t kMaxPlanChoices = 12;
-inline constexpr uint32_t kMaxPlanTables = 12;
+/// The first kEffectCount choices are the effects, by Effect.
+inline constexpr uint32_t kMaxPlanChoices = kEffectCount + 12;
+inline constexpr uint32_t kMaxPlanImages = 12;
 
-/// An image that stays.
-struct PlanTable {
-  const char* name = "";  ///< Static.
-  uint32_t width = 0, height = 0, depth = 0;
-  uint64_t bytes = 0;
-};
-
+/// Descriptions that serve a request, and why they are as they are.
 struct Plan {
-  Needs needs;
-  EffectChoice effects[kEffectCount];  ///< By Effect.
-  PlanChoice choices[kMaxPlanChoices];
-  uint32_t choiceCount = 0;
-  PlanTable tables[kMaxPlanTables];
-  uint32_t tableCount = 0;
-
-  TableDesc tableDesc;
+  PlanRequest request;
+  TableDesc tables;  ///< For createTables.
+  // Replaced by ViewDesc view:
   EffectFlags viewWithout = 0;  ///< ViewDesc::without.
-  bool skySlice = true;         ///< ViewDesc::skySlice and alwaysSliced.
+  bool skySlice = false;        ///< ViewDesc::skySlice and alwaysSliced.
   bool sceneDepth = false;      ///< ViewDesc::sceneDepth.
   bool shafts = false;          ///< ViewDesc::shafts.
   ShaftMethod shaftMethod = ShaftMethod::Exact;
+  // End of what is replaced.
   CapabilityFlags capabilities = 0;  ///< What a context for it needs.
 
-  double expectedError = 0.0;  ///< 95th percentile, of the worst band in the sun's range.
-  bool errorMet = true;        ///< expectedError <= Needs::error.
-  bool budgetMet = true;
+  double expectedError = 0.0;        ///< 95th percentile, of the worst band in the sun's range.
+  double expectedBakeSeconds = 0.0;  ///< By PlanRequest::secondsPerUnit.
+  bool errorMet = false;             ///< expectedError <= PlanRequest::errorTarget.
+  bool budgetMet = false;
   PlanCost cost;   ///< Of all of it.
   PlanCost whole;  ///< Of the default: everything, everywhere, at the default quality.
+  PlanChoice choices[kMaxPlanChoices];
+  uint32_t choiceCount = 0;          ///< kEffectCount and more.
+  ImageInfo images[kMaxPlanImages];  ///< That stay: name, extent, bytes; the rest is zero.
+  uint32_t imageCount = 0;
 };
 
-/// Plans. Values of `base` that are given (solver, orders, quality, moments, format ...) are kept;
-/// Solver::Moments profits, others have their effects planned but for those of tables. On
-/// InvalidArgument `message` (of `messageSize` bytes, may be 0) is a sentence that names the wrong
-/// field, and `out` is as it was.
-Status makePlan(const Parameters& parameters, const Needs& needs, const TableDesc& base, Plan* out,
-                char* message, size_t messageSize);
+/// Plans. Solver::Moments profits; other solvers have their effects planned but for those of
+/// tables. On failure `sink` gets a sentence, and `out` is as it was: InvalidArgument where the
+/// parameters, the request or its tables are wrong, OutOfHostMemory.
+ALPENGLOW_API Status makePlan(const Parameters& parameters, const PlanRequest& request, Plan* out,
+                              const DiagnosticSink& sink);
 
 /// What a draw may see of sky, ground, space and the sun's disc: conservative, as recordSky finds
-/// it. Terrain is the host's to add.
-SeenFlags seenBy(const Parameters& parameters, Projection projection, const SkyDraw& draw);
+/// it. kVisibleScene is the host's to add.
+ALPENGLOW_API VisibilityFlags visibleFrom(const Parameters& parameters, Projection projection,
+                                          const SkyDraw& draw);
 
-/// Fills what a plan decides of a view: solver, mie, without, alwaysSliced. The host adds its
-/// formats, skySlice if Plan::skySlice, sceneDepth and shafts.
-void describeView(const Plan& plan, ViewDesc* view);
-
-/// What must be made anew when needs change: until it is ready, the old serves on.
-struct PlanChange {
-  bool tables = false;  ///< A bake.
-  bool view = false;    ///< Pipelines and images of the view; no bake.
-  bool shafts = false;
-  char reason[256] = "";  ///< A sentence; "" when the plan still serves.
+/// What a change of plans takes. Bits.
+enum RecreateFlag : uint32_t {
+  kRecreateTables = 1u << 0,  ///< A bake.
+  kRecreateView = 1u << 1,    ///< Pipelines and images of the view and its shafts; no bake.
 };
-/// Whether a plan in use serves other needs, and if not, what the plan for them makes anew. Nothing
-/// while altitude, sun and what is seen stay in the plan's ranges.
-PlanChange comparePlans(const Plan& current, const Plan& next);
-/// As comparePlans, but only whether `current` covers `needs`; false with a sentence of what it
-/// lacks.
-bool planServes(const Plan& plan, const Needs& needs, char* reason, size_t reasonSize);
+using RecreateFlags = uint32_t;
+
+/// What must be recreated to go from `current` to `next`; 0 while the ranges of `current` cover
+/// next.request. The reason is reported to `sink` as Info.
+ALPENGLOW_API RecreateFlags comparePlans(const Plan& current, const Plan& next,
+                                         const DiagnosticSink& sink);
 
 }  // namespace v1
 }  // namespace alpenglow

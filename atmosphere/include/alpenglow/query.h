@@ -45,8 +45,7 @@ inline constexpr VkDeviceSize kProbeAnswerBytes = 64;
 /// CPU, now. NotReady until the tables are Recorded; InvalidArgument with a sentence that names the
 /// query by its index and the field.
 ALPENGLOW_API Status recordProbe(const Tables* tables, VkCommandBuffer commands,
-                                 const FrameInfo& frame, const ProbeQuery* queries, uint32_t count,
-                                 VkBuffer buffer);
+                                 const ProbeQuery* queries, uint32_t count, VkBuffer buffer);
 
 /// Turns what recordProbe wrote, read back after the GPU finished, into plain answers. With null
 /// `deviceAnswers` they are computed on the calling thread, in float, from the host copies of

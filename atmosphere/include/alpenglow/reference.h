@@ -19,8 +19,11 @@ struct ReferenceAnswer {
 
 /// Order 1 (single scattering, and the ground under direct sun), with a relative error of about
 /// 1e-8. Irradiance `sky` is 0: it needs at least one event before the surface.
-Status referenceSingleScattering(const Parameters& parameters, const ProbeQuery& query,
-                                 ReferenceAnswer* out);
+/// InvalidArgument for parameters that validate() refuses and for a query that the probe file
+/// would refuse; OutOfHostMemory. Each with a sentence to `sink`, as below.
+ALPENGLOW_API Status referenceSingleScattering(const Parameters& parameters,
+                                               const ProbeQuery& query, ReferenceAnswer* out,
+                                               const DiagnosticSink& sink);
 
 /// Runs body(context, i) for each i below `count`, in any order, on any threads, and returns when
 /// all have finished.
@@ -34,34 +37,37 @@ struct ReferenceOptions {
   uint64_t samples = 0;  ///< Paths, rounded up to whole batches; 0: until the target.
   /// The standard error to stop at, of the worst channel in the project's measure (relative to
   /// max(value, 0.02 E / pi, 1e-9), E the ground's diffuse irradiance), with the sun above 0
-  /// degrees. Three times as much is allowed down to -6 degrees, five times down to -12, ten
-  /// times below; see bandSunElevation().
-  double targetError = 1e-3;
-  uint64_t maxSamples = uint64_t{1} << 19;  ///< Where to stop short of the target.
-  uint64_t seed = 0;                        ///< Each gives other random numbers.
-  ParallelFor parallelFor = nullptr;        ///< Null: all work on the calling thread.
+  /// degrees; 0: 1e-3. Three times as much is allowed down to -6 degrees, five times down to -12,
+  /// ten times below; see bandSunElevation().
+  double targetError = 0.0;
+  uint64_t maxSamples = 0;            ///< Where to stop short of the target; 0: 2^19.
+  uint64_t seed = 0;                  ///< Each gives other random numbers.
+  ParallelFor parallelFor = nullptr;  ///< Null: all work on the calling thread.
   void* parallelUser = nullptr;
 };
 
 /// What the path tracer prepares once for an atmosphere (tables of optical depth). Immutable, so
 /// that threads may share it.
 class Reference;
-Status createReference(const Parameters& parameters, Reference** out);
-void destroyReference(Reference* reference);  ///< Null is fine.
+ALPENGLOW_API Status createReference(const Parameters& parameters, Reference** out,
+                                     const DiagnosticSink& sink);
+ALPENGLOW_API void destroyReference(Reference* reference);  ///< Null is fine.
 
 /// The truth for one query: order 1 as referenceSingleScattering has it, the other orders by path
 /// tracing. InvalidArgument for a query that the probe file would refuse.
-Status evaluateReference(const Reference* reference, const ProbeQuery& query,
-                         const ReferenceOptions& options, ReferenceAnswer* out);
+ALPENGLOW_API Status evaluateReference(const Reference* reference, const ProbeQuery& query,
+                                       const ReferenceOptions& options, ReferenceAnswer* out,
+                                       const DiagnosticSink& sink);
 
 /// The same for a single query, with all preparations.
-Status evaluateReference(const Parameters& parameters, const ProbeQuery& query,
-                         const ReferenceOptions& options, ReferenceAnswer* out);
+ALPENGLOW_API Status evaluateReference(const Parameters& parameters, const ProbeQuery& query,
+                                       const ReferenceOptions& options, ReferenceAnswer* out,
+                                       const DiagnosticSink& sink);
 
 /// The sun's elevation (radians) by which the error of a query is judged: that at the ray's ground
 /// hit if it looks from above the top, at its lowest point for rays from there past the planet,
 /// else at the observer. 0 for a query that would be refused.
-double bandSunElevation(const Parameters& parameters, const ProbeQuery& query);
+ALPENGLOW_API double bandSunElevation(const Parameters& parameters, const ProbeQuery& query);
 
 }  // namespace v1
 }  // namespace alpenglow

@@ -62,13 +62,13 @@ struct Casters {
 
 /// Checks the description and makes targets and pipelines; nothing of a method that isn't chosen.
 Status createShafts(Context* context, const ShaftsDesc& desc, Shafts** out);
-/// Frees them once `frame.completed` of a later call reaches `frame.submitting`; after their views.
-void destroyShafts(Shafts* shafts, const FrameInfo& frame);
+/// Frees them once the frame being recorded has completed (advanceFrame); after their views.
+void destroyShafts(Shafts* shafts);
 
 /// Records, outside any rendering scope, the map from the sun: one draw of the casters. Needed when
 /// the sun or a caster has moved; else the last one serves. Exact and March. Clobbers: pipelines,
 /// sets 0 to 2, push constants, viewport, scissor.
-Status recordSunMap(Shafts* shafts, VkCommandBuffer commands, const FrameInfo& frame,
+Status recordSunMap(Shafts* shafts, VkCommandBuffer commands,
                     const double sunDirection[3], const Casters& casters);
 
 /// Records, outside any rendering scope, the shadows of this draw's camera, after the host's scene
@@ -76,7 +76,7 @@ Status recordSunMap(Shafts* shafts, VkCommandBuffer commands, const FrameInfo& f
 /// read them. Exact and March: after recordSunMap for the same sun, to the last bit. Exact looks
 /// light up if the view has recorded a sky slice for this draw, else it integrates. Clobbers as
 /// recordSunMap.
-Status recordShafts(Shafts* shafts, View* view, VkCommandBuffer commands, const FrameInfo& frame,
+Status recordShafts(Shafts* shafts, View* view, VkCommandBuffer commands,
                     const Tables* tables, const SkyDraw& draw, const Casters& casters);
 
 /// Binding table of shaftSet, for the host's own fragment shaders that include

@@ -121,9 +121,9 @@ ALPENGLOW_API const char* modelLimit(Solver solver);
 ALPENGLOW_API Status createTables(Context* context, const Parameters& parameters,
                                   const TableDesc& desc, Tables** out);
 
-/// Frees the tables once `frame.completed` of a later call reaches `frame.submitting`. Also cancels
-/// a bake. Null is ignored.
-ALPENGLOW_API void destroyTables(Tables* tables, const FrameInfo& frame);
+/// Deferred: freed once the frame being recorded has completed (advanceFrame). Cancels a bake. Null
+/// is ignored.
+ALPENGLOW_API void destroyTables(Tables* tables);
 
 /// One pass of the bake.
 struct BakeProgress {
@@ -144,8 +144,8 @@ struct BakeProgress {
 /// commands must execute in order on one queue. The finished tables are the same, byte for byte,
 /// however the bake is sliced. Leaves no state bound but the compute pipeline, set 0 and push
 /// constants. Scratch tables are freed when the frame of the last call completes.
-ALPENGLOW_API Status recordBake(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame,
-                                uint64_t budget, BakeProgress* progress);
+ALPENGLOW_API Status recordBake(Tables* tables, VkCommandBuffer commands, uint64_t budget,
+                                BakeProgress* progress);
 
 enum class TablesState : uint32_t {
   Empty,
@@ -192,8 +192,7 @@ struct TablesInfo {
   TableDesc desc;  ///< Completed, as by resolveTableDesc.
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  ///< Identical for all tables of a context.
   VkDescriptorSet set = VK_NULL_HANDLE;              ///< For alpenglow/atmosphere.glsl.
-  /// By TableId; a null name: not had. Those of single orders have no handles once their scratch
-  /// memory is freed, and are had only with TableDesc::keepOrders.
+  /// By TableId; a null name: not had. Those of single orders only with TableDesc::keepOrders.
   ImageInfo images[kTableIdCount];
 };
 ALPENGLOW_API Status tablesInfo(const Tables* tables, TablesInfo* out);
@@ -209,9 +208,8 @@ ALPENGLOW_API Status recordTableReadback(Tables* tables, VkCommandBuffer command
 /// Records the filling of a table that is not of a single order from `buffer` (usage TRANSFER_SRC),
 /// laid out as a readback leaves it. When all of them are uploaded, the tables are ready, without a
 /// bake. The host checks that the data are for these parameters.
-ALPENGLOW_API Status recordTableUpload(Tables* tables, VkCommandBuffer commands,
-                                       const FrameInfo& frame, TableId id, VkBuffer buffer,
-                                       VkDeviceSize offset);
+ALPENGLOW_API Status recordTableUpload(Tables* tables, VkCommandBuffer commands, TableId id,
+                                       VkBuffer buffer, VkDeviceSize offset);
 
 }  // namespace v1
 }  // namespace alpenglow

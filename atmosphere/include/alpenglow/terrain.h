@@ -38,11 +38,12 @@ struct TerrainDesc {
 };
 
 struct TerrainVertex {
-  float position[3];  ///< Metres from TerrainPlace::origin_m, axes parallel to the planet's frame.
-  float normal[3];    ///< Unit, outwards.
+  float position[3] =
+      {};  ///< Metres from TerrainPlace::origin_m, axes parallel to the planet's frame.
+  float normal[3] = {};  ///< Unit, outwards.
   /// From 0 to 1 over an image of the field: column c, row r is ((c + 1/2) / width,
   /// (r + 1/2) / height), the middle of its texel in an image of the field's size.
-  float uv[2];
+  float uv[2] = {};
 };
 
 /// What to allocate.
@@ -59,7 +60,8 @@ struct TerrainPlace {
 };
 
 /// Checks everything but the heights, and says how large the mesh will be.
-Status terrainSize(const TerrainDesc& desc, TerrainSize* out, DiagnosticFn diagnostic, void* user);
+ALPENGLOW_API Status terrainSize(const TerrainDesc& desc, TerrainSize* out,
+                                 const DiagnosticSink& sink);
 
 /// Writes the mesh, and where it lies to `place` (may be null). terrainSize() says how many
 /// vertices and indices (plain triangles, counter-clockwise seen from outside). The first width *
@@ -73,13 +75,14 @@ Status terrainSize(const TerrainDesc& desc, TerrainSize* out, DiagnosticFn diagn
 /// the sphere, along its own vertical. Computed in double, rounded once. Normals are those of
 /// central differences on the bent surface, one-sided at the border.
 ///
-/// InvalidArgument with a sentence to `diagnostic` (may be null), nothing written, for heights or
-/// values that are not finite, fewer than 2x2 points, more than kMaxMeshIndices indices, a spacing
-/// that is not above 0 or too small for single precision at this distance from the origin, a field
-/// whose half diagonal is beyond 1/4 pi radius_m or that rises higher than radius_m, negative
-/// scales and widths, a skirt deeper than half of radius_m. Allocates nothing. Thread-safe.
-Status buildTerrain(const TerrainDesc& desc, TerrainVertex* vertices, uint32_t* indices,
-                    TerrainPlace* place, DiagnosticFn diagnostic, void* user);
+/// InvalidArgument with a sentence to `sink`, nothing written, for null arrays, heights or values
+/// that are not finite, fewer than 2x2 points, more than kMaxMeshIndices indices, a spacing that is
+/// not above 0 or too small for single precision at this distance from the origin, a field whose
+/// half diagonal is beyond 1/4 pi radius_m or that rises higher than radius_m, negative scales and
+/// widths, a skirt deeper than half of radius_m. Allocates nothing. Thread-safe.
+ALPENGLOW_API Status buildTerrain(const TerrainDesc& desc, TerrainVertex* vertices,
+                                  uint32_t* indices, TerrainPlace* place,
+                                  const DiagnosticSink& sink);
 
 }  // namespace v1
 }  // namespace alpenglow

@@ -1,5 +1,6 @@
-// The vocabulary that every part of Alpenglow shares: status codes, diagnostics, image states,
-// frame numbers and memory hooks. Plain types only: no STL, no exceptions, no global state.
+// What every header shares: status codes, diagnostics, images of the host's and of ours, memory
+// hooks. Plain types: no STL, no exceptions, no RTTI, no global state. Zero is the default of every
+// member of every struct of this library, so `{}` is always a valid description.
 #pragma once
 
 #include <alpenglow/export.h>
@@ -14,59 +15,53 @@ inline namespace v1 {
 /// Result of every call that can fail. Ok is 0, so `if (status != Status::Ok)` reads naturally.
 enum class Status : int32_t {
   Ok = 0,
-  NotReady,           ///< The tables are not baked yet, or the queried copy has not arrived.
-  InvalidArgument,    ///< The caller's values are wrong; the object is as it was before the call.
-  Unsupported,        ///< The device, its enabled features or this version can't do what was asked.
-  OutOfHostMemory,    ///< VK_ERROR_OUT_OF_HOST_MEMORY, or our own allocation failed.
+  NotReady,         ///< Tables are not baked, or beginFrame of this frame failed. Not an error: no
+                    ///< sentence is reported.
+  InvalidArgument,  ///< The caller's values are wrong; the object is as it was before the call.
+  Unsupported,      ///< The device, its enabled features or this version can't do what was asked.
+  OutOfHostMemory,  ///< VK_ERROR_OUT_OF_HOST_MEMORY, or an allocation of the library failed.
   OutOfDeviceMemory,  ///< VK_ERROR_OUT_OF_DEVICE_MEMORY, or the host's memory hook refused.
   DeviceLost,         ///< VK_ERROR_DEVICE_LOST; destroying objects stays legal.
   VulkanError,        ///< Any other VkResult below zero; Diagnostic::result has it.
 };
 
-/// One line of English for people: "InvalidArgument", ... Never null.
-const char* statusName(Status status);
+/// "InvalidArgument", ... Never null.
+ALPENGLOW_API const char* statusName(Status status);
 
 enum class Severity : int32_t { Info, Warning, Error };
 
-/// What a failed call reports. `message` is one full sentence that names the value given and what
-/// was expected; it is valid only during the callback.
+/// One report: a full sentence that names the value given and what was expected.
 struct Diagnostic {
-  Severity severity = Severity::Error;
+  Severity severity = Severity::Info;
   Status status = Status::Ok;
-  VkResult result = VK_SUCCESS;  ///< The raw Vulkan result, VK_SUCCESS where Vulkan was not asked.
-  const char* message = "";
+  VkResult result = VK_SUCCESS;   ///< VK_SUCCESS where Vulkan was not asked.
+  const char* message = nullptr;  ///< Never null in a report; valid during the call.
 };
 
-/// Called from the thread that made the failing call, never from a thread of ours (we start none).
+/// Called on the thread that made the failing call; the library starts no threads.
 using DiagnosticFn = void (*)(void* user, const Diagnostic& diagnostic);
 
 /// Where sentences go: that of the context for every call that knows one, else the one that a
-/// function takes. A null `report` discards them. Every failing call reports one Error. A warning is
-/// reported once for each object.
+/// function takes. A null `report` discards them. Every failing call reports one Error. A warning
+/// is reported once for each object.
 struct DiagnosticSink {
   DiagnosticFn report = nullptr;
   void* user = nullptr;
 };
 
-/// Rising numbers from the host's timeline semaphore or fences. `submitting` is the frame being
-/// recorded now, `completed` the newest frame that the GPU has finished. What a frame may still
-/// use is destroyed once `completed` reaches its number. Count from 1: frame 0 has always
+/// An image of the host's. It stays the host's and lives until the frames that use it have
 /// completed.
-struct FrameInfo {
-  uint64_t submitting = 0;
-  uint64_t completed = 0;
-};
-
-/// Real Vulkan stages, accesses and layouts of an image at one point of a command buffer.
-struct ImageState {
-  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-  VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
-  VkAccessFlags2 access = VK_ACCESS_2_NONE;
+struct HostImage {
+  VkImageView view = VK_NULL_HANDLE;                 ///< Null: none.
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  ///< While our commands execute; 0: the default
+                                                     ///< that the member's comment names.
+  VkExtent2D extent = {};                            ///< Texels of level 0.
+  VkSampler sampler = VK_NULL_HANDLE;                ///< Only where the member's comment says so.
 };
 
 /// An image of ours, in the state in which the last recorded call leaves it: `layout`, written by
-/// `stage` and `access`, and already made visible to the reader stages of its owner, so that a later
-/// reader on the same queue needs no barrier.
+/// `stage` and `access`, and already made visible to the reader stages of its owner, so that a
+/// later reader on the same queue needs no barrier.
 struct ImageInfo {
   const char* name = nullptr;  ///< Static. Null: this object has no such image.
   VkImage image = VK_NULL_HANDLE;
@@ -79,24 +74,29 @@ struct ImageInfo {
   VkAccessFlags2 access = VK_ACCESS_2_NONE;
 };
 
-/// A range of device memory handed out by the host's hook.
+/// Real Vulkan stages, accesses and layouts of an image at one point of a command buffer.
+struct ImageState {
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+  VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
+  VkAccessFlags2 access = VK_ACCESS_2_NONE;
+};
+
+/// A range of device memory from the host's hook.
 struct MemoryRange {
   VkDeviceMemory memory = VK_NULL_HANDLE;
   VkDeviceSize offset = 0;
-  void* mapped = nullptr;  ///< The range's first byte (the one at `offset`) where it is mapped.
+  void* mapped = nullptr;  ///< First byte of the range, where it is mapped.
 };
 
-/// Optional: lets a host's allocator (VMA, its own) serve our few memory blocks. Both functions
-/// must be thread-safe. Ranges may share a VkDeviceMemory: we never map or unmap memory of a hook.
-/// A range may hold images: a host that sub-allocates keeps bufferImageGranularity between it and
-/// ranges with buffers (those asked for with `mustMap` hold nothing else).
+/// Optional: the host's allocator (VMA or its own) serves our few memory blocks. Both functions
+/// must be thread-safe. Ranges may share a VkDeviceMemory: memory of a hook is never mapped or
+/// unmapped here. A host that sub-allocates keeps bufferImageGranularity between ranges with images
+/// and ranges with buffers (those asked for with `mustMap` hold buffers only).
 struct MemoryHooks {
   void* user = nullptr;
   /// Fills `range` with memory of type `memoryTypeIndex`, at least `requirements.size` bytes, at a
   /// multiple of `requirements.alignment`. With `mustMap` the type is host-visible and coherent,
-  /// and the host sets `range->mapped` and keeps the range mapped until it is freed; a null
-  /// `mapped` is then InvalidArgument. Without `mustMap`, `mapped` is ignored. `name` says what it
-  /// is for.
+  /// and the range stays mapped until it is freed. `name` says what the memory is for.
   VkResult (*allocate)(void* user, const VkMemoryRequirements& requirements,
                        uint32_t memoryTypeIndex, bool mustMap, const char* name,
                        MemoryRange* range) = nullptr;

@@ -81,8 +81,8 @@ struct ViewDesc {
 
 /// Checks the description and makes the pipelines.
 Status createView(Context* context, const ViewDesc& desc, View** out);
-/// Frees the view once `frame.completed` of a later call reaches `frame.submitting`.
-void destroyView(View* view, const FrameInfo& frame);
+/// Frees the view once the frame being recorded has completed (advanceFrame).
+void destroyView(View* view);
 
 /// Where the camera is and looks, in the planet's frame: origin at the centre, z to the north pole,
 /// x to latitude 0, longitude 0; metres. Altitude is |position| - Rg, taken in double; below the
@@ -122,14 +122,14 @@ struct SkyDraw {
 /// the atmosphere and 128 x 160 outside (fewer where ViewDesc::skySlice is of a level below
 /// medium), and off by what docs/stability.md says. Clobbers: compute pipeline, sets 0 and 1, push
 /// constants.
-Status recordSkySlice(View* view, VkCommandBuffer commands, const FrameInfo& frame,
+Status recordSkySlice(View* view, VkCommandBuffer commands,
                       const Tables* tables, const SkyDraw& draw);
 
 /// Draws the viewport inside the host's rendering scope, with dynamic viewport and scissor: a few
 /// draws, at most 64, of rectangles that together are the viewport, each with the pipeline for what
 /// its pixels may see of air, ground and sun. The tables must be ready. Clobbers: graphics
 /// pipeline, sets 0 and 1 (0 to 3 with ViewDesc::sceneDepth), push constants, viewport, scissor.
-Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame, const Tables* tables,
+Status recordSky(View* view, VkCommandBuffer commands, const Tables* tables,
                  const SkyDraw& draw);
 
 /// Aerial perspective: draws, inside the host's rendering scope, over every pixel of the viewport
@@ -141,7 +141,7 @@ Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame, c
 /// tables. Sky pixels are left to recordSky, in either order. Needs ViewDesc::sceneDepth,
 /// kCapabilityAir and SkyDraw::depth. Not for fisheyes. Clobbers what recordSky does, and sets 0
 /// to 2.
-Status recordAir(View* view, VkCommandBuffer commands, const FrameInfo& frame, const Tables* tables,
+Status recordAir(View* view, VkCommandBuffer commands, const Tables* tables,
                  const SkyDraw& draw);
 
 /// The matrix (column-major) that a host may draw its scene with, and that its depth image must

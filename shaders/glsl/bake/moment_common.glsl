@@ -1,6 +1,6 @@
 // What the shaders of the moment solver share: bindings and reads. Some bindings have two names: no shader
 // reads both. All but the sources are 32-bit floats: radiance spans 30 powers of ten.
-#include "effects.glsl"
+#include "common/effect_constants.glsl"
 #include "tile.glsl"
 
 #include "physics/physics.glsl"

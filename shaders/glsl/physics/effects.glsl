@@ -1,5 +1,5 @@
 // Which effects the text is compiled for (alpenglow/effects.h). Literals or specialization constants that the
-// includer may define, effects.glsl of the folder above for our own shaders; what is false leaves nothing
+// includer may define, common/effect_constants.glsl for our own shaders; what is false leaves nothing
 // behind. Tables without a table of sources, or of moments, are a matter of the text, since a shader needs what
 // it declares: ALPENGLOW_WITHOUT_SOURCE (no aerosols), ALPENGLOW_WITHOUT_MULTIPLE.
 #ifdef ALPENGLOW_WITHOUT_SOURCE

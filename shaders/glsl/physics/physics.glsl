@@ -27,6 +27,4 @@
 
 #include "air_volume.glsl"
 
-#include "tone_map.glsl"
-
 #endif

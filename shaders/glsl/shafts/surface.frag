@@ -4,12 +4,12 @@
 // before it is lit if the ray enters shadow here, and unlit else (docs/shafts.md).
 
 #define ALPENGLOW_AIR_SET 2
-#include "effects.glsl"
+#include "common/effect_constants.glsl"
 #include "alpenglow/atmosphere.glsl"
 #include "alpenglow/shafts.glsl"
-#include "shafts/pixel_ray.glsl"
-#include "sky/ray_light.glsl"
-#include "shafts/air_ray.glsl"
+#include "common/pixel_ray.glsl"
+#include "common/ray_light.glsl"
+#include "common/air_ray.glsl"
 
 layout(location = 0) in vec3 position;
 

@@ -5,7 +5,7 @@
 
 #include "alpenglow/atmosphere.glsl"
 #include "alpenglow/shafts.glsl"
-#include "shafts/pixel_ray.glsl"
+#include "common/pixel_ray.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in flat float onNearPlane;

@@ -5,13 +5,13 @@
 
 #define ALPENGLOW_AIR_SET 2
 #define ALPENGLOW_SHAFT_SET 3
-#include "effects.glsl"
+#include "common/effect_constants.glsl"
 #include "alpenglow/atmosphere.glsl"
-#include "sky/observer.glsl"
-#include "sky/ray_light.glsl"
+#include "common/observer.glsl"
+#include "common/ray_light.glsl"
 #ifdef ALPENGLOW_WITH_SHAFTS
 #include "alpenglow/shafts.glsl"
-#include "shafts/shaft_loss.glsl"
+#include "common/shaft_loss.glsl"
 #endif
 
 layout(constant_id = 4) const float kFarDepth = 1.0;

@@ -7,7 +7,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kMiePacked = false;
 
 #define ALPENGLOW_MIE_PACKED kMiePacked
-#include "effects.glsl"
+#include "common/effect_constants.glsl"
 #include "alpenglow/atmosphere.glsl"
 
 // Mirrored by PreparedQuery in atmosphere/sky/probe_pass.h.

@@ -11,7 +11,7 @@ layout(constant_id = 5) const bool kAir = true;
 layout(constant_id = 11) const float kSliceColumns = 128.0;
 layout(constant_id = 12) const float kSliceRows = 160.0;
 
-#include "effects.glsl"
+#include "common/effect_constants.glsl"
 
 #ifdef ALPENGLOW_SKY_SLICE
 // Light that arrives at this frame's camera, or of the standard solver S at its altitude, for cameras
@@ -26,14 +26,14 @@ Spectrum readSliceMie(vec2 uv) { return textureLod(sliceMieTable, uv, 0.0).rgb; 
 
 #define ALPENGLOW_MIE_PACKED kMiePacked
 #include "alpenglow/atmosphere.glsl"
-#include "sky/observer.glsl"
+#include "common/observer.glsl"
 #ifdef ALPENGLOW_WITH_SHAFTS
 #define ALPENGLOW_AIR_SET 2
 #define ALPENGLOW_SHAFT_SET 3
 #include "alpenglow/shafts.glsl"
-#include "sky/ray_light.glsl"
-#include "shafts/air_ray.glsl"
-#include "shafts/shaft_loss.glsl"
+#include "common/ray_light.glsl"
+#include "common/air_ray.glsl"
+#include "common/shaft_loss.glsl"
 #endif
 
 #ifdef ALPENGLOW_ALBEDO_MAP

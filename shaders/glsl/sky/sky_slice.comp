@@ -4,7 +4,7 @@
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-#include "effects.glsl"
+#include "common/effect_constants.glsl"
 
 #include "alpenglow/atmosphere.glsl"
 

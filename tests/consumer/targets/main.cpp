@@ -16,7 +16,7 @@ int main() {
   alpenglow::ProbeQuery zenith;
   zenith.sunZenith = 1.0;
   alpenglow::ReferenceAnswer answer;
-  if (alpenglow::referenceSingleScattering(*earth, zenith, &answer) != alpenglow::Status::Ok) {
+  if (alpenglow::referenceSingleScattering(*earth, zenith, &answer, {}) != alpenglow::Status::Ok) {
     return 2;
   }
   if (answer.value.skyRadiance[2] <= answer.value.skyRadiance[0]) return 3;  // The sky is blue.

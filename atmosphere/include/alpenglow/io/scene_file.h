@@ -90,7 +90,7 @@ struct SceneNeeds {
   std::optional<double> altitude_m[2];    ///< Of the camera, from and to. None: its own.
   std::optional<double> sunElevation[2];  ///< Radians. None: its own.
   std::optional<double> exposure;         ///< The greatest. None: any.
-  double error = 0.0;                     ///< As Needs; the next as well.
+  double error = 0.0;                     ///< As PlanRequest::errorTarget; the next as well.
   uint64_t budgetBytes = 0;
   double budgetSeconds = 0.0;
 };

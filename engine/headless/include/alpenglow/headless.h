@@ -105,7 +105,8 @@ class Device {
   const std::string& name() const;
   bool debugUtils() const;  ///< VK_EXT_debug_utils is enabled (with validation).
 
-  /// A description of a context on this device, ready for createContext; `diagnostic` is left null.
+  /// A description of a context on this device, ready for createContext; `diagnostics` is left
+  /// null.
   ContextDesc contextDesc() const;
 
   /// Begins a command buffer, lets `record` fill it, submits and waits. False when `record` returns
@@ -114,13 +115,16 @@ class Device {
            Timing* timing = nullptr);
   /// Until the device has nothing to do.
   void waitIdle() const;
-  /// Frame numbers for the library: the frame that `run` records now, or would record next, and the
-  /// last one that finished.
-  FrameInfo frame() const;
+  /// The frame that `run` records now, or would record next; the one below it has completed. For
+  /// advanceFrame.
+  uint64_t frame() const;
+  /// Counts that frame as completed without commands, and returns the next one's number: after it, an
+  /// advanceFrame frees what was destroyed before.
+  uint64_t skipFrame();
 
   HostBuffer createHostBuffer(VkDeviceSize size, VkBufferUsageFlags usage, std::string* error);
   Image createImage(VkExtent2D extent, VkFormat format, VkImageUsageFlags usage, uint32_t levels,
-                    std::string* error);
+                    std::string* error, VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT);
   /// Any device function, through vkGetDeviceProcAddr; null when unknown.
   PFN_vkVoidFunction function(const char* name) const;
 

@@ -1,6 +1,6 @@
 // The ray through a pixel of the frame that alpenglow/shafts.glsl tells of.
 
-#include "sky/observer.glsl"
+#include "common/observer.glsl"
 
 Ray pixelRay(vec2 fragCoord, out vec3 view) {
   vec3 across = alpenglowPixelOffset(fragCoord);

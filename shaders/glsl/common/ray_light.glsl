@@ -2,7 +2,7 @@
 // by integration through the tables. Distances are metres from the observer, cut at the end of the ray.
 
 #ifdef ALPENGLOW_FROM_VOLUME
-#include "alpenglow/air_volume.glsl"
+#include "common/air_volume.glsl"
 #else
 struct AirRay {
   Ray ray;

@@ -1,5 +1,5 @@
-// What shadows keep from a ray: docs/shafts.md. Needs alpenglow/shafts.glsl, sky/ray_light.glsl and
-// pixel_ray.glsl.
+// What shadows keep from a ray: docs/shafts.md. Needs alpenglow/shafts.glsl, common/ray_light.glsl and
+// common/pixel_ray.glsl.
 
 layout(constant_id = 8) const int kShaftMethod = 0;
 layout(constant_id = 9) const int kShaftSamples = 32;

@@ -1,4 +1,4 @@
-// A ray from this frame's camera, ready for sky/ray_light.glsl.
+// A ray from this frame's camera, ready for common/ray_light.glsl.
 
 AirRay airRayOf(Ray ray, vec3 view) {
 #ifdef ALPENGLOW_FROM_VOLUME

@@ -81,15 +81,11 @@ class Gpu {
   /// Throws unless the status is Ok, with the sentence that the library gave its context.
   using CheckFn = std::function<void(Status)>;
 
-  /// Numbers of frames as the program counts them.
-  using FrameFn = std::function<FrameInfo()>;
-
   /// All outlive it.
-  Gpu(headless::Device* device, RunFn run, CheckFn check, FrameFn frame)
-      : device_(device), run_(std::move(run)), check_(std::move(check)), frame_(std::move(frame)) {}
+  Gpu(headless::Device* device, RunFn run, CheckFn check)
+      : device_(device), run_(std::move(run)), check_(std::move(check)) {}
 
   headless::Device& device() const { return *device_; }
-  FrameInfo frame() const { return frame_(); }
 
   /// A device function by the type of its pointer: function<PFN_vkCmdDraw>("vkCmdDraw").
   template <typename Function>
@@ -145,7 +141,6 @@ class Gpu {
   headless::Device* device_;
   RunFn run_;
   CheckFn check_;
-  FrameFn frame_;
 };
 
 /// Uses of images, for barriers.

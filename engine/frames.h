@@ -1,0 +1,57 @@
+// Frame numbers of the host, and the objects that must hear of them: what was recorded in a frame may
+// be dropped by the host, and what only a bake needs is freed when its last frame has completed.
+#pragma once
+
+#include <alpenglow/types.h>
+
+#include <atomic>
+#include <mutex>
+
+namespace alpenglow::engine {
+
+class Device;
+class FrameList;
+
+/// An object that lives in the list of its device from construction to destruction. No copies.
+class FrameObject {
+ public:
+  explicit FrameObject(FrameList& list);
+  FrameObject(const FrameObject&) = delete;
+  FrameObject& operator=(const FrameObject&) = delete;
+
+  /// Frames up to `completed` have finished.
+  virtual void frameCompleted(uint64_t completed) = 0;
+  /// What was recorded in `frame` will never execute.
+  virtual void frameAbandoned(uint64_t frame) = 0;
+  /// Destroys the object; the device has finished with it.
+  virtual void destroyNow() = 0;
+
+ protected:
+  virtual ~FrameObject();
+
+ private:
+  friend class FrameList;
+  FrameList& list_;
+  FrameObject *previous_ = nullptr, *next_ = nullptr;
+};
+
+/// The numbers, and the objects that are alive. Thread-safe; but the calls of the objects happen under
+/// its lock, so that they must not create or destroy others.
+class FrameList {
+ public:
+  uint64_t submitting() const { return submitting_; }
+  uint64_t completed() const { return completed_; }
+  /// The numbers are checked by the caller.
+  void advance(uint64_t submitting, uint64_t completed);
+  void abandon(uint64_t frame);
+  /// Destroys all objects, the newest first.
+  void destroyAll();
+
+ private:
+  friend class FrameObject;
+  std::atomic<uint64_t> submitting_{1}, completed_{0};
+  std::mutex mutex_;
+  FrameObject* newest_ = nullptr;
+};
+
+}  // namespace alpenglow::engine

@@ -1,0 +1,65 @@
+// How a landscape's triangles are drawn: its descriptor sets and pipelines.
+#pragma once
+
+#include <alpenglow/shafts.h>
+
+#include "common/gpu.h"
+
+namespace alpenglow::samples {
+
+inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
+
+/// SceneFrame of scene_frame.glsl.
+struct FrameBlock {
+  float clipFromCamera[16];
+  float upAltitude[4];
+  float forwardParallel[4];
+  float sun[4];
+  float irradiance[4];
+};
+
+struct LandscapePipelinesDesc {
+  const Tables* tables = nullptr;  ///< On the context of those that will be drawn with.
+  VkFormat colorFormat = VK_FORMAT_UNDEFINED;
+  Solver solver = Solver::Moments;                 ///< As the tables that will be drawn with.
+  MieStorage mie = MieStorage::Full;               ///< The same.
+  const headless::Image* terrainAlbedo = nullptr;  ///< Null: there is no terrain, and no depth.
+  bool balloons = false;
+  Shafts* shafts = nullptr;
+};
+
+class LandscapePipelines {
+ public:
+  static constexpr VkShaderStageFlags kPushStages =
+      VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+
+  /// `gpu`, the image and the shafts outlive it. Throws an Error.
+  LandscapePipelines(const Gpu* gpu, const LandscapePipelinesDesc& desc);
+
+  /// Holds a FrameBlock for all pipelines.
+  const headless::HostBuffer& frame() const { return frame_; }
+
+  /// Each binds a pipeline with its sets.
+  void bindDepth(VkCommandBuffer commands) const;
+  void bindTerrain(VkCommandBuffer commands, const Tables* tables) const;
+  void bindBalloons(VkCommandBuffer commands, const Tables* tables) const;
+  /// Constants of the shaders: a place of the terrain, or a balloon.
+  void push(VkCommandBuffer commands, const void* data, uint32_t bytes) const;
+
+ private:
+  void makeSets(const LandscapePipelinesDesc& desc);
+  void makePipelines(const LandscapePipelinesDesc& desc);
+  void bind(VkCommandBuffer commands, VkPipeline pipeline, const Tables* tables) const;
+
+  const Gpu* gpu_;
+  Shafts* shafts_;
+  headless::HostBuffer frame_;
+  Owned<VkSampler> sampler_;
+  Owned<VkDescriptorSetLayout> frameLayout_, albedoLayout_;
+  Owned<VkDescriptorPool> pool_;
+  VkDescriptorSet frameSet_ = VK_NULL_HANDLE, albedoSet_ = VK_NULL_HANDLE;
+  Owned<VkPipelineLayout> layout_;
+  Owned<VkPipeline> depth_, terrain_, balloon_;
+};
+
+}  // namespace alpenglow::samples
