@@ -20,7 +20,8 @@ struct Context {
 /// Ok, or Unsupported with a sentence when the context was made without the capability.
 Status requireCapability(const Context& context, CapabilityFlags capability, const char* call);
 
-/// InvalidArgument, with a sentence where there are tables to say it.
+/// InvalidArgument, with a sentence where there is a context, or tables of one, to say it.
+Status nullArgument(const Context* context, const char* call);
 Status nullArgument(const Tables* tables, const char* call);
 
 }  // namespace v1

@@ -27,7 +27,7 @@ struct TableCopy {
 #define SPECTRUM(value) Spectrum(value)
 #define REAL(literal) static_cast<float>(literal)
 
-/// One atmosphere's tables, made without some effects (TableDesc::without).
+/// One atmosphere's tables, made without some effects (TableDesc::disabledEffects).
 class Field {
  public:
   Field(const Medium& medium, const MomentShape& shape, EffectFlags without,

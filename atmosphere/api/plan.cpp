@@ -26,7 +26,7 @@ struct Completed {
   TableDesc desc;
 };
 Completed completedTables(const Parameters& parameters, const Plan& plan) {
-  const Parameters air = bake::simulated(parameters, plan.tables.without);
+  const Parameters air = bake::simulated(parameters, plan.tables.disabledEffects);
   return {air, bake::completed(air, plan.tables)};
 }
 
@@ -110,7 +110,7 @@ void priceChoices(const Parameters& parameters, Plan* plan) {
     if (name == "sun_zenith") {
       other.tables.sunZenithFrom = other.tables.sunZenithTo = 0.0;
     } else if (name == "optical_depths") {
-      other.tables.moments.depthMu = other.tables.moments.depthH = 0;
+      other.tables.sizes.depthMu = other.tables.sizes.depthH = 0;
     } else if (name == "quality") {
       other.tables.quality = Quality::Medium;
     } else {
@@ -154,11 +154,8 @@ void fill(const Parameters& parameters, const PlanRequest& request, Plan* plan) 
 /// As createTables checks them, on a device with the largest images that any has.
 Status checkTables(const Parameters& parameters, const PlanRequest& request,
                    const DiagnosticSink& sink) {
-  const bake::Checks checks(sink);
-  const TableDesc& desc = request.tables;
-  if (Status status = bake::checkTableDesc(checks, desc); status != Status::Ok) return status;
-  const Parameters simulated = bake::simulated(parameters, desc.without);
-  return bake::checkSizes(checks, bake::completed(simulated, desc));
+  TableDesc desc = request.tables;
+  return resolveTableDesc(parameters, &desc, sink);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Point queries on the CPU.
+// Point queries: recorded for the device, read back from it, or answered on the CPU.
 #include <alpenglow/query.h>
 
 #include <algorithm>
@@ -56,66 +56,84 @@ ProbeAnswer rayAnswer(cpu::Field& field, const physics_f64::Medium& medium, bool
   return answer;
 }
 
-cpu::TableCopy copyOf(const Tables& tables, TableId id, const void* data) {
-  if (data == nullptr) return {};
-  TableInfo info;
-  tables.info(id, &info);
-  return {data, info.width, info.height, info.depth, info.format == VK_FORMAT_R16G16B16A16_SFLOAT};
+cpu::TableCopy copyOf(const Tables& tables, TableId id) {
+  const Tables::HostCopy copy = tables.hostCopy(id);
+  return {copy.data, copy.extent.width, copy.extent.height, copy.extent.depth,
+          copy.format == VK_FORMAT_R16G16B16A16_SFLOAT};
 }
 
-Status checkCall(const Tables& tables, const TableReadbacks& copies, const ProbeQuery* queries,
-                 uint32_t count) {
+Status checkCopies(const Tables& tables) {
   const engine::Device& device = tables.resources().device();
   if (tables.desc().solver != Solver::Moments) {
     return device.fail(Status::Unsupported, VK_SUCCESS,
-                       "answerQueries got tables of Solver::%s, but needs those of "
-                       "Solver::Moments; recordProbe answers for any.",
+                       "answerQueries got tables of Solver::%s and no answers of the device, but "
+                       "the CPU answers for Solver::Moments alone; recordProbe answers for any.",
                        solverEnumerator(tables.desc().solver));
   }
-  bool rays = false;
+  if (tables.desc().cpuQueries == CpuQueries::None) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "answerQueries got no answers of the device, but these tables keep no host "
+                       "copies: their TableDesc::cpuQueries was CpuQueries::None.");
+  }
+  return tables.state() == TablesState::Complete ? Status::Ok : Status::NotReady;
+}
+
+Status answerOnCpu(const Tables& tables, const ProbeQuery* queries, uint32_t count,
+                   ProbeAnswer* answers) {
+  const Status status = checkCopies(tables);
+  if (status != Status::Ok) return status;
+  const Parameters& parameters = tables.parameters();
+  const TableDesc& desc = tables.desc();
+  const physics_f64::Medium medium = makeMediumF64(parameters);
+  cpu::Field field(makeMediumF32(parameters), bake::makeMomentShapeF32(parameters, desc),
+                   desc.disabledEffects, copyOf(tables, kTableOpticalDepth),
+                   copyOf(tables, kTableMoments), copyOf(tables, kTableSource));
+  const bool skyRadiance = desc.cpuQueries == CpuQueries::All;
   for (uint32_t i = 0; i < count; ++i) {
-    const Status checked = sky::checkQuery(device, i, queries[i]);
-    if (checked != Status::Ok) return checked;
-    rays = rays || !queries[i].irradiance;
+    answers[i] = queries[i].kind == QueryKind::Irradiance
+                     ? irradianceAnswer(field, medium.thickness, queries[i])
+                     : rayAnswer(field, medium, skyRadiance, queries[i]);
   }
-  if (!tables.ready()) {
-    return device.fail(Status::NotReady, VK_SUCCESS,
-                       "answerQueries got tables that are not baked, but needs copies of tables "
-                       "whose bake is done.");
+  return Status::Ok;
+}
+
+// Of what the shader has written for one query.
+ProbeAnswer deviceAnswer(const physics_f64::Medium& medium, const ProbeQuery& query,
+                         const float* values) {
+  const bool ray = query.kind == QueryKind::Ray;
+  ProbeAnswer answer;
+  for (uint32_t c = 0; c < kSpectrumSize; ++c) {
+    (ray ? answer.transmittance : answer.direct)[c] = values[c];
+    (ray ? answer.skyRadiance : answer.sky)[c] = values[4 + c];
+    answer.groundRadiance[c] = values[8 + c];
   }
-  const EffectFlags without = tables.desc().without;
-  const bool multiple = hasEffect(without, Effect::MultipleScattering);
-  const bool sources = rays && copies.skyRadiance && hasEffect(without, Effect::Mie);
-  const char* missing = copies.opticalDepth == nullptr                    ? "OpticalDepth"
-                        : multiple && copies.moments == nullptr           ? "Moments"
-                        : multiple && sources && copies.source == nullptr ? "Source"
-                                                                          : nullptr;
-  if (missing == nullptr) return Status::Ok;
-  return device.fail(Status::NotReady, VK_SUCCESS,
-                     "answerQueries got no copy of TableId::%s, but needs one that "
-                     "recordTableReadback has made.",
-                     missing);
+  if (ray) answer.hitsGround = resolveQuery(medium, query).endsOnGround;
+  return answer;
 }
 
 }  // namespace
 
-Status answerQueries(const Tables* tables, const TableReadbacks& copies, const ProbeQuery* queries,
-                     uint32_t count, ProbeAnswer* answers) {
+Status recordProbe(const Tables* tables, VkCommandBuffer commands, const ProbeQuery* queries,
+                   uint32_t count, VkBuffer buffer) {
+  if (tables == nullptr || commands == VK_NULL_HANDLE) return nullArgument(tables, "recordProbe");
+  const Context& context = *tables->resources().context;
+  const Status status = requireCapability(context, kCapabilityBake, "recordProbe");
+  if (status != Status::Ok) return status;
+  return context.probe->record(*tables, commands, queries, count, buffer);
+}
+
+Status answerQueries(const Tables* tables, const ProbeQuery* queries, uint32_t count,
+                     const void* deviceAnswers, ProbeAnswer* answers) {
   if (tables == nullptr || queries == nullptr || answers == nullptr)
     return nullArgument(tables, "answerQueries");
-  const Status status = checkCall(*tables, copies, queries, count);
+  const Status status = sky::checkQueries(tables->resources().device(), queries, count);
   if (status != Status::Ok) return status;
-  const Parameters& parameters = tables->parameters();
-  const physics_f64::Medium medium = makeMediumF64(parameters);
-  cpu::Field field(makeMediumF32(parameters), bake::makeMomentShapeF32(parameters, tables->desc()),
-                   tables->desc().without,
-                   copyOf(*tables, TableId::OpticalDepth, copies.opticalDepth),
-                   copyOf(*tables, TableId::Moments, copies.moments),
-                   copyOf(*tables, TableId::Source, copies.source));
-  for (uint32_t i = 0; i < count; ++i) {
-    answers[i] = queries[i].irradiance ? irradianceAnswer(field, medium.thickness, queries[i])
-                                       : rayAnswer(field, medium, copies.skyRadiance, queries[i]);
-  }
+  if (deviceAnswers == nullptr) return answerOnCpu(*tables, queries, count, answers);
+  const physics_f64::Medium medium = makeMediumF64(tables->parameters());
+  const auto* values = static_cast<const float*>(deviceAnswers);
+  constexpr size_t kFloats = kProbeAnswerBytes / sizeof(float);
+  for (uint32_t i = 0; i < count; ++i)
+    answers[i] = deviceAnswer(medium, queries[i], values + i * kFloats);
   return Status::Ok;
 }
 

@@ -64,15 +64,15 @@ static_assert(offsetof(MomentConstants, shape) % 16 == 0 && sizeof(MomentConstan
 class Builder {
  public:
   Builder(const TableDesc& desc, uint32_t orders)
-      : c_(desc.moments),
+      : c_(desc.sizes),
         half_(desc.format == TableFormat::Half),
         orders_(orders),
-        without_(desc.without),
-        hasMie_(hasEffect(desc.without, Effect::Mie)),
-        reflects_(hasEffect(desc.without, Effect::GroundReflection)),
+        without_(desc.disabledEffects),
+        hasMie_(hasEffect(desc.disabledEffects, Effect::Mie)),
+        reflects_(hasEffect(desc.disabledEffects, Effect::GroundReflection)),
         layers_(fieldLayers(desc)),
         nodes_(c_.nodesR * c_.nodesMuS),
-        rings_(c_.ringsSky + c_.ringsLimb + c_.ringsGround),
+        rings_(c_.zenithsSky + c_.zenithsLimb + c_.zenithsGround),
         modesPerRing_(c_.degree + 1),
         harmonics_((c_.degree + 1) * (c_.degree + 2) / 2),
         fieldR_(fieldTexels(c_.nodesR)),
@@ -129,7 +129,7 @@ class Builder {
 
   void addTables() {
     t_ = floats("Alpenglow optical depth", c_.depthMu, c_.depthH, true);
-    keep(TableId::OpticalDepth, t_);
+    keep(kTableOpticalDepth, t_);
     // What isn't there is not declared by those who read it, but lavapipe wants every binding
     // filled.
     for (uint32_t& bound : plan_.bound) bound = t_;
@@ -146,12 +146,12 @@ class Builder {
 
   void addFieldTables() {
     total_ = floats("Alpenglow moments", fieldMuS_, fieldR_ * layers_, true);
-    keep(TableId::Moments, total_);
+    keep(kTableMoments, total_);
     plan_.bound[1] = total_;
     if (!hasMie_) return;
     source_ =
         sources("Alpenglow source", vulkanFormat(half_ ? TableFormat::Half : TableFormat::Float));
-    keep(TableId::Source, source_);
+    keep(kTableSource, source_);
     plan_.bound[2] = plan_.bound[3] = source_;
   }
 
@@ -168,7 +168,7 @@ class Builder {
       plain_[i] = nodeLayers("Alpenglow plain order");
     nodeField_ = nodeLayers("Alpenglow order");
     orderField_ = floats("Alpenglow order between", fieldMuS_, fieldR_ * layers_, true);
-    plan_.tables.push_back({TableId::OrderMoments, nodeField_});
+    plan_.tables.push_back({kTableOrderMoments, nodeField_});
     if (hasMie_) addSourcePreparation();
 
     Stage rules =
@@ -192,7 +192,7 @@ class Builder {
     orderSource_ = sources("Alpenglow order source", plan_.images[source_].format);
     sourceSum_ = sources("Alpenglow source sum", VK_FORMAT_R32G32B32A32_SFLOAT);
     plan_.images[sourceSum_].filtered = false;
-    plan_.tables.push_back({TableId::OrderSource, orderSource_});
+    plan_.tables.push_back({kTableOrderSource, orderSource_});
   }
 
   void addRotations() {
@@ -277,11 +277,11 @@ class Builder {
 
   uint32_t addField(bool first, uint32_t to) {
     Stage field = stage(ALPENGLOW_SHADER(kMomentField), c_.nodesMuS, c_.nodesR,
-                        uint64_t(c_.ringsSky) * (first ? kFineRings : 1) * 2 + 4 * layers_);
+                        uint64_t(c_.zenithsSky) * (first ? kFineRings : 1) * 2 + 4 * layers_);
     field.constants[0] = first;
     field.inputs = {{kModes, modes_}, {kMoments, moments_}, {kRules, rules_}};
     field.outputs = {{nodeField_}, {plain_[to]}, {sum_, !first}};
-    field.finishes = {{TableId::OrderMoments, nodeField_}};
+    field.finishes = {{kTableOrderMoments, nodeField_}};
     return plan_.addStage(field);
   }
 
@@ -302,7 +302,7 @@ class Builder {
     source.constants[0] = first;
     source.inputs = {{kSourceModes, sourceModes_}, {kField, nodeField_}};
     source.outputs = {{orderSource_}, {sourceSum_, !first}};
-    source.finishes = {{TableId::OrderSource, orderSource_}};
+    source.finishes = {{kTableOrderSource, orderSource_}};
     return plan_.addStage(source);
   }
 
@@ -376,7 +376,7 @@ class Builder {
     return source;
   }
 
-  MomentSettings c_;
+  TableSizes c_;
   bool half_;
   uint32_t orders_;
   EffectFlags without_;

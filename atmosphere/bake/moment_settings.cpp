@@ -2,16 +2,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atmosphere/bake/desc_members.h"
+#include "atmosphere/bake/size_fields.h"
 #include "atmosphere/bake/moment_shape.h"
 
 namespace alpenglow {
 namespace bake {
 namespace {
 
-// Draft ... Ultra. In the order of MomentSettings: depthMu, depthH; nodesR, nodesMuS; ringsSky,
-// ringsLimb, ringsGround; azimuths, degree; sourceGamma, sourcePsi; solverPanels, viewPanels.
-constexpr MomentSettings kLevels[] = {{128, 64, 10, 28, 8, 4, 5, 8, 8, 24, 12, 4, 4},
+// Draft ... Ultra. In the order of TableSizes: depthMu, depthH; nodesR, nodesMuS; zenithsSky,
+// zenithsLimb, zenithsGround; azimuths, degree; sourceGamma, sourcePsi; solverPanels, viewPanels.
+constexpr TableSizes kLevels[] = {{128, 64, 10, 28, 8, 4, 5, 8, 8, 24, 12, 4, 4},
                                       {192, 96, 12, 40, 10, 5, 6, 10, 10, 32, 16, 4, 5},
                                       {256, 128, 15, 52, 12, 5, 6, 12, 14, 40, 24, 4, 6},
                                       {384, 192, 22, 84, 18, 8, 10, 18, 18, 56, 32, 6, 8},
@@ -86,29 +86,24 @@ uint32_t solvedOrders(const Parameters& parameters, const TableDesc& desc) {
 
 double degreeTaper(const Parameters& parameters) { return peakClass(parameters).taper; }
 
-}  // namespace bake
-
-inline namespace v1 {
-
-MomentSettings momentSettings(const Parameters& parameters, Quality quality,
-                              const MomentSettings& custom) {
+TableSizes momentSizes(const Parameters& parameters, Quality quality, const TableSizes& given) {
   const auto last = static_cast<uint32_t>(Quality::Ultra);
   const uint32_t level = quality == Quality::Default ? static_cast<uint32_t>(Quality::Medium)
                                                      : static_cast<uint32_t>(quality);
-  MomentSettings result = bake::kLevels[std::min(level, last) - 1];
-  const bake::PeakClass& peak = bake::peakClass(parameters);
-  const uint32_t panels = bake::depthClass(parameters) + bake::stretchPanels(parameters);
+  TableSizes result = kLevels[std::min(level, last) - 1];
+  const PeakClass& peak = peakClass(parameters);
+  const uint32_t panels = depthClass(parameters) + stretchPanels(parameters);
   result.degree = std::min(result.degree + peak.degree, kMaxDegree);
   result.azimuths += peak.azimuths;
-  result.ringsSky += peak.ringsSky;
+  result.zenithsSky += peak.ringsSky;
   result.sourceGamma += peak.sourceGamma;
   result.nodesMuS += peak.nodesMuS;
   result.solverPanels += panels;
   result.viewPanels += panels;
-  for (const auto member : bake::kMomentMembers)
-    if (custom.*member != 0) result.*member = custom.*member;
+  for (const SizeField& field : kMomentFields)
+    if (given.*field.member != 0) result.*field.member = given.*field.member;
   return result;
 }
 
-}  // namespace v1
+}  // namespace bake
 }  // namespace alpenglow

@@ -89,7 +89,7 @@ uint32_t nodesOfSunRange(const Parameters& parameters, const TableDesc& desc, ui
 
 physics_f64::MomentShape makeMomentShapeF64(const Parameters& parameters, const TableDesc& desc) {
   const physics_f64::Medium medium = makeMediumF64(parameters);
-  const MomentSettings& c = desc.moments;
+  const TableSizes& c = desc.sizes;
   Shape s = {};
   shapeDepths(medium, &s);
   shapeSun(medium, desc, &s);
@@ -104,9 +104,9 @@ physics_f64::MomentShape makeMomentShapeF64(const Parameters& parameters, const 
   s.sourceSharpness = std::clamp(0.5 / (1.0 - std::abs(medium.mieAsymmetry)), 2.0, 12.0);
   s.peakAsymmetry = medium.mieAsymmetry * std::abs(medium.mieAsymmetry);
   s.peakShare = 0.3;
-  s.ringsSky = c.ringsSky;
-  s.ringsLimb = c.ringsLimb;
-  s.ringsGround = c.ringsGround;
+  s.ringsSky = c.zenithsSky;
+  s.ringsLimb = c.zenithsLimb;
+  s.ringsGround = c.zenithsGround;
   s.azimuths = c.azimuths;
   s.degree = c.degree;
   s.taper = degreeTaper(parameters);

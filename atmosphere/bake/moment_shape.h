@@ -5,6 +5,7 @@
 #include <alpenglow/tables.h>
 
 #include "atmosphere/model/physics_cpp.h"
+#include "atmosphere/model/table_limits.h"
 
 namespace alpenglow::bake {
 
@@ -23,6 +24,10 @@ inline bool allSuns(const TableDesc& desc) {
 uint32_t nodesOfSunRange(const Parameters& parameters, const TableDesc& desc, uint32_t all);
 inline constexpr uint32_t kLeastSunNodes = 4;
 
+/// The sizes that a quality level has for an atmosphere, by the rule of docs/accuracy.md, with what
+/// `given` has in place of it.
+TableSizes momentSizes(const Parameters& parameters, Quality quality, const TableSizes& given);
+
 /// Orders of scattering that are computed one by one: TableDesc::orders, or for 0 as many as the
 /// air needs before the rest is a geometric series.
 uint32_t solvedOrders(const Parameters& parameters, const TableDesc& desc);
@@ -31,7 +36,7 @@ uint32_t solvedOrders(const Parameters& parameters, const TableDesc& desc);
 inline uint32_t fieldLayers(const TableDesc& desc) {
   constexpr EffectFlags kGround =
       effectBit(Effect::GroundReflection) | effectBit(Effect::GroundIrradiance);
-  return (desc.without & kGround) == kGround ? 4 : 5;
+  return (desc.disabledEffects & kGround) == kGround ? 4 : 5;
 }
 
 /// How strongly the highest degrees of the harmonics are damped: MomentShape::taper.

@@ -34,7 +34,7 @@ struct StageOutput {
 
 /// The image that holds a table of the public API.
 struct TableImage {
-  TableId id = TableId::OpticalDepth;
+  TableId id = kTableOpticalDepth;
   uint32_t image = 0;
 };
 
@@ -102,7 +102,7 @@ uint64_t bytesOf(const PlanImage& image);
 const char* shortName(const PlanImage& image);
 
 /// Tables of single orders, which only TableDesc::keepOrders shows.
-constexpr bool isOrderTable(TableId id) { return id >= TableId::OrderMoments; }
+constexpr bool isOrderTable(TableId id) { return id >= kTableOrderMoments; }
 
 /// Algorithm 4.1 of the paper: T; dE 1; dS 1; then dL n, dJ n, dE n, dS n for n = 2 ... orders.
 /// `desc` is completed; `finest` is the format of tables that differences are taken of.

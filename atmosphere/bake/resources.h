@@ -50,6 +50,7 @@ class Resources {
 
   /// Of the context; counted up and down by what is made on it.
   LiveObjects& live() const { return live_; }
+  Context* context = nullptr;  ///< Whose these are.
 
  private:
   Resources(engine::Device& device, LiveObjects& live) : device_(device), live_(live) {}

@@ -92,10 +92,10 @@ class Builder {
     dMie_ = image("Alpenglow single Mie", VK_IMAGE_TYPE_3D, scatteringExtent_, full);
     dE_ = image("Alpenglow dE", VK_IMAGE_TYPE_2D, irradianceExtent_, false);
     dS_ = image("Alpenglow dS", VK_IMAGE_TYPE_3D, scatteringExtent_, false);
-    plan_.tables = {{TableId::OpticalDepth, t_},     {TableId::Irradiance, e_},
-                    {TableId::Scattering, s_},       {TableId::OrderIrradiance, dE_},
-                    {TableId::OrderScattering, dS_}, {TableId::OrderSingleMie, dMie_}};
-    if (full) plan_.tables.push_back({TableId::SingleMie, dMie_});
+    plan_.tables = {{kTableOpticalDepth, t_},     {kTableIrradiance, e_},
+                    {kTableScattering, s_},       {kTableOrderIrradiance, dE_},
+                    {kTableOrderScattering, dS_}, {kTableOrderSingleMie, dMie_}};
+    if (full) plan_.tables.push_back({kTableSingleMie, dMie_});
     // Packed tables have no single Mie of their own: the binding must hold an image all the same.
     const uint32_t bound[kBoundTables] = {t_, e_, s_, full ? dMie_ : s_};
     std::memcpy(plan_.bound, bound, sizeof bound);
@@ -117,9 +117,9 @@ class Builder {
     single.constants[1] = desc_.mie == MieStorage::Packed;
     single.inputs = {{1, t_}};
     single.outputs = {{dS_}, {dMie_}, {s_}};
-    single.finishes = {{TableId::OrderIrradiance, dE_},
-                       {TableId::OrderScattering, dS_},
-                       {TableId::OrderSingleMie, dMie_}};
+    single.finishes = {{kTableOrderIrradiance, dE_},
+                       {kTableOrderScattering, dS_},
+                       {kTableOrderSingleMie, dMie_}};
     plan_.addPass(plan_.addStage(single), "dS", 1);
   }
 
@@ -135,7 +135,7 @@ class Builder {
     Stage multiple = stageFor(s_, ALPENGLOW_SHADER(kMultipleScattering, desc_.format), 51 * 4);
     multiple.inputs = {{1, t_}, {5, dJ_}};
     multiple.outputs = {{dS_}, {s_, true}};
-    multiple.finishes = {{TableId::OrderIrradiance, dE_}, {TableId::OrderScattering, dS_}};
+    multiple.finishes = {{kTableOrderIrradiance, dE_}, {kTableOrderScattering, dS_}};
     const uint32_t gather = plan_.addStage(multiple);
     for (uint32_t order = 2; order <= desc_.orders; ++order) {
       const uint32_t first = order == 2 ? second : further;

@@ -11,12 +11,6 @@ namespace {
 using bake::isOrderTable;
 using bake::kNoImage;
 
-// Where host shaders and our own sample the finished tables.
-constexpr ImageState kReadable = {
-    VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
-    VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
-
 /// What a table is called, and which solver has it.
 struct TableKind {
   const char* name;
@@ -38,7 +32,9 @@ VkBufferImageCopy wholeCopy(const engine::Image& image, VkDeviceSize offset) {
   return copy;
 }
 
-uint64_t texelBytes(VkFormat format) { return format == VK_FORMAT_R32G32B32A32_SFLOAT ? 16 : 8; }
+const char* nameOf(TableId id) {
+  return id < kTableIdCount ? kTableKinds[id].name : "of an unknown TableId";
+}
 
 }  // namespace
 
@@ -128,18 +124,53 @@ Status Tables::recordPass(VkCommandBuffer commands, const bake::Pass& pass, uint
   return Status::Ok;
 }
 
-Status Tables::makeReadable(VkCommandBuffer commands) {
+ImageState Tables::readable() const {
+  return {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, desc_.readerStages,
+          VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+}
+
+// After it the image is in the layout of transfers; barriers are the caller's.
+void Tables::copyToBuffer(VkCommandBuffer commands, engine::Image& image, VkBuffer buffer,
+                          VkDeviceSize offset) {
+  const VkBufferImageCopy copy = wholeCopy(image, offset);
+  device_.vk().CmdCopyImageToBuffer(commands, image.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                                    buffer, 1, &copy);
+}
+
+Status Tables::recordHostCopies(VkCommandBuffer commands) {
+  if (desc_.cpuQueries == CpuQueries::None) return Status::Ok;
   engine::Barriers barriers;
-  for (size_t i = 0; i < images_.size(); ++i)
-    if (plan_.images[i].persistent) barriers.image(images_[i], kReadable);
+  for (const TableId id : {kTableOpticalDepth, kTableMoments, kTableSource})
+    if (hostCopies_[id].handle != VK_NULL_HANDLE)
+      barriers.image(images_[imageOf(id)], engine::kTransferSource);
+  Status status = barriers.record(device_, commands);
+  if (status != Status::Ok) return status;
+  for (const TableId id : {kTableOpticalDepth, kTableMoments, kTableSource})
+    if (hostCopies_[id].handle != VK_NULL_HANDLE)
+      copyToBuffer(commands, images_[imageOf(id)], hostCopies_[id].handle, 0);
+  barriers.memory(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
   return barriers.record(device_, commands);
 }
 
+// The last thing that makes tables ready, of a bake or an upload.
 Status Tables::finish(VkCommandBuffer commands) {
-  const Status status = makeReadable(commands);
+  Status status = recordHostCopies(commands);
+  if (status != Status::Ok) return status;
+  engine::Barriers barriers;
+  for (size_t i = 0; i < images_.size(); ++i)
+    if (plan_.images[i].persistent) barriers.image(images_[i], readable());
+  status = barriers.record(device_, commands);
   if (status != Status::Ok) return status;
   state_.ready = true;
+  state_.readyFrame = device_.submitting();
   return Status::Ok;
+}
+
+TablesState Tables::state() const {
+  const bool begun = state_.unitsDone != 0 || state_.uploaded != 0;
+  if (!state_.ready) return begun ? TablesState::Baking : TablesState::Empty;
+  return state_.readyFrame <= device_.completed() ? TablesState::Complete : TablesState::Recorded;
 }
 
 // Only once the last frame has completed: an abandoned one would need it again.
@@ -186,14 +217,13 @@ void Tables::releaseScratch() {
 }
 
 uint32_t Tables::imageOf(TableId id) const {
-  return isOrderTable(id) && !(desc_.keepOrders && bakes_) ? kNoImage : plan_.imageOf(id);
+  const bool had = id < kTableIdCount && (!isOrderTable(id) || (desc_.keepOrders && bakes_));
+  return had ? plan_.imageOf(id) : kNoImage;
 }
 
 Status Tables::missing(TableId id) const {
-  const auto index = static_cast<uint32_t>(id);
-  const bool known = index < kTableIdCount;
-  const TableKind kind =
-      known ? kTableKinds[index] : TableKind{"of an unknown TableId", true, true};
+  const bool known = id < kTableIdCount;
+  const TableKind kind = known ? kTableKinds[id] : TableKind{nameOf(id), true, true};
   const bool hasIt = desc_.solver == Solver::Moments    ? kind.moments
                      : desc_.solver == Solver::Standard ? kind.standard
                                                         : false;  // The models' have no id.
@@ -206,18 +236,38 @@ Status Tables::missing(TableId id) const {
                       "These tables have no table %s: it needs %s.", kind.name, needs);
 }
 
-Status Tables::info(TableId id, TableInfo* out) const {
+ImageInfo Tables::imageInfo(TableId id) const {
+  ImageInfo info;
+  const uint32_t index = imageOf(id);
+  if (index == kNoImage) return info;
+  const bake::PlanImage& plan = plan_.images[index];
+  const engine::Image& image = images_[index];
+  info.name = nameOf(id);
+  info.image = image.handle;
+  info.view = image.view;
+  info.format = plan.format;
+  info.extent = plan.extent;
+  info.bytes = bake::bytesOf(plan);
+  info.layout = image.state.layout;
+  info.stage = image.state.stage;
+  info.access = image.state.access;
+  return info;
+}
+
+void Tables::info(TablesInfo* out) const {
   *out = {};
-  const uint32_t image = static_cast<uint32_t>(id) < kTableIdCount ? imageOf(id) : kNoImage;
-  if (image == kNoImage) return missing(id);
-  const bake::PlanImage& plan = plan_.images[image];
-  out->name = kTableKinds[static_cast<uint32_t>(id)].name;
-  out->width = plan.extent.width;
-  out->height = plan.extent.height;
-  out->depth = plan.extent.depth;
-  out->format = plan.format;
-  out->bytes = uint64_t(out->width) * out->height * out->depth * texelBytes(out->format);
-  return Status::Ok;
+  out->state = state();
+  out->desc = desc_;
+  out->setLayout = resources_.tableLayout();
+  out->set = tableSet_;
+  for (uint32_t i = 0; i < kTableIdCount; ++i)
+    out->images[i] = imageInfo(static_cast<TableId>(i));
+}
+
+Tables::HostCopy Tables::hostCopy(TableId id) const {
+  if (id > kTableSource || hostCopies_[id].handle == VK_NULL_HANDLE) return {};
+  const bake::PlanImage& plan = plan_.images[imageOf(id)];
+  return {hostCopies_[id].mapped, plan.extent, plan.format};
 }
 
 // Order tables can be read between the pass that finished them and the next one.
@@ -227,48 +277,27 @@ uint32_t Tables::readableImage(TableId id) const {
   return plan_.imageAfter(plan_.passes[state_.pass - 1], id);
 }
 
-Status Tables::notReadable(TableId id) const {
-  const char* name = kTableKinds[static_cast<uint32_t>(id)].name;
-  if (!isOrderTable(id)) {
-    return device_.fail(Status::NotReady, VK_SUCCESS,
-                        "The table %s can be read back only when the bake is done or the tables "
-                        "are uploaded.",
-                        name);
-  }
-  const char* first = "";
-  for (size_t i = plan_.passes.size(); i-- > 0;)
-    if (plan_.imageAfter(plan_.passes[i], id) != kNoImage) first = plan_.passes[i].name;
-  return device_.fail(Status::NotReady, VK_SUCCESS,
-                      "The table %s can be read back only right after the pass that finishes it "
-                      "for its order, the first time after \"%s\".",
-                      name, first);
-}
-
 Status Tables::recordReadback(VkCommandBuffer commands, TableId id, VkBuffer buffer,
                               VkDeviceSize offset) {
-  TableInfo table;
-  Status status = info(id, &table);
-  if (status != Status::Ok) return status;
+  if (imageOf(id) == kNoImage) return missing(id);
   if (buffer == VK_NULL_HANDLE || offset % 16 != 0) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "The readback of table %s got %s buffer and offset %llu, but needs a "
                         "buffer and a multiple of 16.",
-                        table.name, buffer == VK_NULL_HANDLE ? "a null" : "a",
+                        nameOf(id), buffer == VK_NULL_HANDLE ? "a null" : "a",
                         static_cast<unsigned long long>(offset));
   }
   const uint32_t index = readableImage(id);
-  if (index == kNoImage) return notReadable(id);
-  status = noteFrame();
+  if (index == kNoImage) return Status::NotReady;
+  Status status = noteFrame();
   if (status != Status::Ok) return status;
   engine::Image& image = images_[index];
   engine::Barriers barriers;
   barriers.image(image, engine::kTransferSource);
   status = barriers.record(device_, commands);
   if (status != Status::Ok) return status;
-  const VkBufferImageCopy copy = wholeCopy(image, offset);
-  device_.vk().CmdCopyImageToBuffer(commands, image.handle, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
-                                    buffer, 1, &copy);
-  barriers.image(image, kReadable);
+  copyToBuffer(commands, image, buffer, offset);
+  barriers.image(image, readable());
   barriers.memory(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
   return barriers.record(device_, commands);
@@ -276,18 +305,16 @@ Status Tables::recordReadback(VkCommandBuffer commands, TableId id, VkBuffer buf
 
 Status Tables::recordUpload(VkCommandBuffer commands, TableId id,
                             VkBuffer buffer, VkDeviceSize offset) {
-  TableInfo table;
-  Status status = info(id, &table);
-  if (status != Status::Ok) return status;
+  if (imageOf(id) == kNoImage) return missing(id);
   if (isOrderTable(id) || buffer == VK_NULL_HANDLE || offset % 16 != 0 || state_.unitsDone != 0) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "The upload of table %s (buffer %s, offset %llu, %s) needs a final table, "
                         "a buffer, an offset that is a multiple of 16, and tables without a bake.",
-                        table.name, buffer == VK_NULL_HANDLE ? "null" : "given",
+                        nameOf(id), buffer == VK_NULL_HANDLE ? "null" : "given",
                         static_cast<unsigned long long>(offset),
                         state_.unitsDone != 0 ? "bake begun" : "no bake begun");
   }
-  status = noteFrame();
+  Status status = noteFrame();
   if (status != Status::Ok) return status;
   const uint32_t index = imageOf(id);
   engine::Image& image = images_[index];
@@ -298,26 +325,19 @@ Status Tables::recordUpload(VkCommandBuffer commands, TableId id,
   const VkBufferImageCopy copy = wholeCopy(image, offset);
   device_.vk().CmdCopyBufferToImage(commands, buffer, image.handle,
                                     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
-  barriers.image(image, kReadable);
+  barriers.image(image, readable());
   status = barriers.record(device_, commands);
   if (status != Status::Ok) return status;
   state_.uploaded |= 1u << index;
   uint32_t needed = 0;
   for (uint32_t i = 0; i < images_.size(); ++i)
     if (plan_.images[i].persistent) needed |= 1u << i;
-  if (state_.uploaded == needed && !state_.ready) {
-    state_.ready = true;
-  }
-  return Status::Ok;
+  // A table that is uploaded once more is copied to the host once more.
+  return state_.uploaded == needed ? finish(commands) : Status::Ok;
 }
 
 Status Tables::assertReadable() const {
-  if (!state_.ready) {
-    return device_.fail(Status::NotReady, VK_SUCCESS,
-                        "The tables are not ready: %llu of %llu work units are baked.",
-                        static_cast<unsigned long long>(state_.unitsDone),
-                        static_cast<unsigned long long>(unitsTotal_));
-  }
+  if (!state_.ready) return Status::NotReady;
   for (size_t i = 0; i < images_.size(); ++i) {
     if (!plan_.images[i].persistent) continue;
     const Status status =

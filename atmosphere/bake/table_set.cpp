@@ -34,6 +34,7 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
     }
     status = tables->makeImages();
     if (status == Status::Ok) status = tables->makeUniforms();
+    if (status == Status::Ok) status = tables->makeHostCopies();
     if (status == Status::Ok) status = tables->makeDescriptors();
     if (status == Status::Ok && bakes) status = tables->makePipelines();
   } catch (const std::bad_alloc&) {  // No exception may reach the host.
@@ -55,8 +56,9 @@ void Tables::destroy(Tables* tables, uint64_t frame) {
                            engine::handleNumber(tables->pool_));
   for (engine::Image& image : tables->images_) engine::deferImage(device, frame, &image);
   engine::deferBuffer(device, frame, &tables->uniforms_);
-  for (engine::MemoryBlock* block :
-       {&tables->persistentBlock_, &tables->scratchBlock_, &tables->uniformBlock_})
+  for (engine::Buffer& copy : tables->hostCopies_) engine::deferBuffer(device, frame, &copy);
+  for (engine::MemoryBlock* block : {&tables->persistentBlock_, &tables->scratchBlock_,
+                                     &tables->uniformBlock_, &tables->hostBlock_})
     engine::deferBlock(device, frame, block);
   delete tables;
   device.deletions().collect(device.completed());
@@ -104,6 +106,39 @@ Status Tables::makeUniforms() {
   if (status != Status::Ok) return status;
   std::memcpy(uniforms_.mapped, plan_.uniforms.data(), plan_.uniforms.size());
   return Status::Ok;
+}
+
+namespace {
+
+// Reads of memory that is not cached are slow; where there is none that is, they are correct still.
+VkMemoryPropertyFlags hostMemory(const engine::Device& device) {
+  constexpr VkMemoryPropertyFlags kMapped =
+      VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+  constexpr VkMemoryPropertyFlags kCached = kMapped | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+  const VkPhysicalDeviceMemoryProperties& memory = device.memoryProperties();
+  for (uint32_t i = 0; i < memory.memoryTypeCount; ++i)
+    if ((memory.memoryTypes[i].propertyFlags & kCached) == kCached) return kCached;
+  return kMapped;
+}
+
+}  // namespace
+
+Status Tables::makeHostCopies() {
+  if (desc_.cpuQueries == CpuQueries::None) return Status::Ok;
+  std::vector<engine::Buffer*> buffers;
+  for (const TableId id : {kTableOpticalDepth, kTableMoments, kTableSource}) {
+    if (id == kTableSource && desc_.cpuQueries != CpuQueries::All) continue;
+    const uint32_t image = imageOf(id);
+    if (image == bake::kNoImage) continue;  // Effects that are left out.
+    const Status status = engine::createBuffer(device_, bake::bytesOf(plan_.images[image]),
+                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                               "Alpenglow CPU queries", &hostCopies_[id]);
+    if (status != Status::Ok) return status;
+    buffers.push_back(&hostCopies_[id]);
+  }
+  return engine::allocateAndBind(device_, "Alpenglow CPU queries", hostMemory(device_), nullptr, 0,
+                                 buffers.data(), static_cast<uint32_t>(buffers.size()),
+                                 &hostBlock_);
 }
 
 Status Tables::makeDescriptors() {

@@ -15,35 +15,13 @@
 
 namespace alpenglow::bake {
 
-/// Where checks of a description report, and what images there are: of a device, or of a plan,
-/// which knows none and takes the largest images that any has.
-class Checks {
- public:
-  Checks(const engine::Device& device)  // NOLINT: a device stands for its checks.
-      : most2D(device.limits().maxImageDimension2D),
-        most3D(device.limits().maxImageDimension3D),
-        device_(&device) {}
-  explicit Checks(const DiagnosticSink& sink) : sink_(sink) {}
-
-  const uint32_t most2D = 32768, most3D = 16384;
-  /// As Device::fail.
-  Status fail(Status status, VkResult result, const char* format, ...) const ALPENGLOW_PRINTF(4, 5);
-
- private:
-  const engine::Device* device_ = nullptr;
-  DiagnosticSink sink_;
-};
-
-/// Ok, or a sentence to the diagnostic that names the wrong field of the description, as the host
-/// gave it.
-Status checkTableDesc(const Checks& checks, const TableDesc& desc);
-/// The description with its zeros replaced by defaults, for parameters as simulated; but Moments
-/// keep orders == 0: all of them.
+/// The description with its zeros replaced by defaults, for parameters as simulated: what
+/// resolveTableDesc does after its checks.
 TableDesc completed(const Parameters& parameters, const TableDesc& desc);
 /// The parameters less what is not simulated.
-Parameters simulated(const Parameters& parameters, EffectFlags without);
+Parameters simulated(const Parameters& parameters, EffectFlags disabled);
 /// Ok, or a sentence when a size of a completed description is out of range on this device.
-Status checkSizes(const Checks& checks, const TableDesc& desc);
+Status checkDeviceLimits(const engine::Device& device, const TableDesc& desc);
 
 }  // namespace alpenglow::bake
 
@@ -62,7 +40,7 @@ struct Tables : public engine::FrameObject {
   static void destroy(Tables* tables, uint64_t frame);
 
   Status recordBake(VkCommandBuffer commands, uint64_t budget, BakeProgress* progress);
-  Status info(TableId id, TableInfo* out) const;
+  void info(TablesInfo* out) const;
   Status recordReadback(VkCommandBuffer commands, TableId id, VkBuffer buffer, VkDeviceSize offset);
   Status recordUpload(VkCommandBuffer commands, TableId id, VkBuffer buffer, VkDeviceSize offset);
 
@@ -70,15 +48,28 @@ struct Tables : public engine::FrameObject {
   void frameAbandoned(uint64_t frame) override;
   void destroyNow() override { destroy(this, 0); }
 
+  /// Baked or uploaded, by commands that are recorded.
   bool ready() const { return state_.ready; }
+  TablesState state() const;
   /// Newest frame with commands that write the tables; 0: none.
   uint64_t recordedFrame() const { return recordedFrame_; }
   const Parameters& parameters() const { return parameters_; }
   const TableDesc& desc() const { return desc_; }
+  /// Of light 0, at the top of the atmosphere: what views draw with.
+  const Spectrum& irradiance() const { return desc_.lights[0].irradiance; }
   VkDescriptorSet descriptorSet() const { return tableSet_; }
   bake::Resources& resources() const { return resources_; }
   uint64_t id() const { return id_; }  ///< From 1; unique in the context.
-  /// InvalidArgument with a sentence when an image is not where descriptorSet() says.
+  /// A table's host copy and shape; null data when cpuQueries doesn't ask for it. It has arrived
+  /// once the state is Complete.
+  struct HostCopy {
+    const void* data = nullptr;
+    VkExtent3D extent = {};
+    VkFormat format = VK_FORMAT_UNDEFINED;
+  };
+  HostCopy hostCopy(TableId id) const;
+  /// NotReady, without a sentence, until ready(). InvalidArgument with a sentence when an image is
+  /// not where descriptorSet() says.
   Status assertReadable() const;
 
  private:
@@ -87,6 +78,7 @@ struct Tables : public engine::FrameObject {
   ~Tables() override = default;
   Status makeImages();
   Status makeUniforms();
+  Status makeHostCopies();
   Status makeDescriptors();
   Status makePipelines();
   Status writeTableSet();
@@ -96,11 +88,14 @@ struct Tables : public engine::FrameObject {
   /// The image to copy now; kNoImage when the table is not finished.
   uint32_t readableImage(TableId id) const;
   Status missing(TableId id) const;
-  Status notReadable(TableId id) const;
+  ImageState readable() const;  ///< Where readers sample the finished tables.
+  ImageInfo imageInfo(TableId id) const;
+  void copyToBuffer(VkCommandBuffer commands, engine::Image& image, VkBuffer buffer,
+                    VkDeviceSize offset);
   Status recordPass(VkCommandBuffer commands, const bake::Pass& pass, uint32_t firstRow,
                     uint32_t endRow);
   Status finish(VkCommandBuffer commands);
-  Status makeReadable(VkCommandBuffer commands);
+  Status recordHostCopies(VkCommandBuffer commands);
   void releaseScratch();
   /// Before anything is recorded: keeps what frameAbandoned() goes back to.
   Status noteFrame();
@@ -122,7 +117,9 @@ struct Tables : public engine::FrameObject {
   std::vector<StageObjects> stages_;   ///< Empty without `bakes_`.
   std::vector<engine::Image> images_;  ///< As in the plan; scratch is empty without `bakes_`.
   engine::Buffer uniforms_;
-  engine::MemoryBlock persistentBlock_, scratchBlock_, uniformBlock_;
+  /// Those that cpuQueries asks for, by TableId; the others are empty.
+  engine::Buffer hostCopies_[kTableSource + 1];
+  engine::MemoryBlock persistentBlock_, scratchBlock_, uniformBlock_, hostBlock_;
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkDescriptorSet tableSet_ = VK_NULL_HANDLE;
 
@@ -133,6 +130,7 @@ struct Tables : public engine::FrameObject {
     uint64_t unitsDone = 0;
     uint32_t uploaded = 0;  ///< Bits by image.
     bool ready = false;
+    uint64_t readyFrame = 0;  ///< In which the last slice or upload was recorded.
   };
   RecordState state_;
   uint64_t recordedFrame_ = 0;

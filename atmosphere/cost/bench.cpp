@@ -121,7 +121,7 @@ ViewPointer Bench::view(const Drawn& drawn) {
   desc.colorFormat = kFormat;
   desc.solver = drawn.desc.solver;
   desc.mie = drawn.desc.mie;
-  desc.without = (drawn.desc.without & kTableEffects) | drawn.viewWithout;
+  desc.without = (drawn.desc.disabledEffects & kTableEffects) | drawn.viewWithout;
   if (drawn.sliced) desc.skySlice = drawn.tables;
   View* made = nullptr;
   if (createView(context_, desc, &made) != Status::Ok) throw Failure(error_);
@@ -196,15 +196,21 @@ std::vector<Spectrum> Bench::radiance(View* view, const Drawn& drawn, const Para
   return result;
 }
 
-std::vector<float> Bench::readTable(Tables* tables, TableId id, TableInfo* info) {
-  if (tableInfo(tables, id, info) != Status::Ok) throw Failure(error_);
+ImageInfo Bench::imageOf(const Tables* tables, TableId id) {
+  TablesInfo info;
+  if (tablesInfo(tables, &info) != Status::Ok) throw Failure(error_);
+  return info.images[id];
+}
+
+std::vector<float> Bench::readTable(Tables* tables, TableId id, ImageInfo* info) {
+  *info = imageOf(tables, id);
   const headless::HostBuffer buffer =
       device_->createHostBuffer(info->bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, &error_);
   if (buffer.data() == nullptr) throw Failure(error_);
   run([&](VkCommandBuffer commands) {
     return recordTableReadback(tables, commands, id, buffer.buffer(), 0);
   });
-  const size_t count = size_t{4} * info->width * info->height * info->depth;
+  const size_t count = size_t{4} * info->extent.width * info->extent.height * info->extent.depth;
   std::vector<float> rgba(count);
   const bool half = info->format == VK_FORMAT_R16G16B16A16_SFLOAT;
   for (size_t i = 0; i < count; ++i) {
@@ -219,18 +225,17 @@ TablesPointer Bench::withSource(const Parameters& parameters, const TableDesc& d
   Tables* made = nullptr;
   if (createTables(context_, parameters, desc, &made) != Status::Ok) throw Failure(error_);
   TablesPointer tables(made, TablesDeleter{device_.get()});
-  for (const TableId id : {TableId::OpticalDepth, TableId::Moments, TableId::Source}) {
-    TableInfo info;
+  for (const TableId id : {kTableOpticalDepth, kTableMoments, kTableSource}) {
+    ImageInfo info;
     std::vector<float> rgba = readTable(from, id, &info);
-    if (id == TableId::Source) rgba = source;
+    if (id == kTableSource) rgba = source;
     upload(made, id, rgba);
   }
   return tables;
 }
 
 void Bench::upload(Tables* tables, TableId id, const std::vector<float>& rgba) {
-  TableInfo info;
-  if (tableInfo(tables, id, &info) != Status::Ok) throw Failure(error_);
+  const ImageInfo info = imageOf(tables, id);
   const headless::HostBuffer buffer =
       device_->createHostBuffer(info.bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, &error_);
   if (buffer.data() == nullptr) throw Failure(error_);
@@ -251,7 +256,7 @@ SkyDraw drawOfRay(const Parameters& parameters, const ProbeQuery& ray, int32_t x
   SkyDraw draw;
   Camera& camera = draw.camera;
   camera.position_m[2] = parameters.bottomRadius_m + ray.altitude_m;
-  const double sine = std::sin(ray.viewZenith), cosine = std::cos(ray.viewZenith);
+  const double sine = std::sin(ray.zenith), cosine = std::cos(ray.zenith);
   const double east = std::cos(ray.azimuth), north = std::sin(ray.azimuth);
   const double forward[3] = {sine * east, sine * north, cosine};
   const double up[3] = {-cosine * east, -cosine * north, sine};

@@ -74,12 +74,13 @@ class Bench {
   std::vector<Spectrum> radiance(View* view, const Drawn& drawn, const Parameters& parameters,
                                  const std::vector<ProbeQuery>& rays);
   /// A copy of a table, RGBA.
-  std::vector<float> readTable(Tables* tables, TableId id, TableInfo* info);
+  std::vector<float> readTable(Tables* tables, TableId id, ImageInfo* info);
   /// Tables of the moment solver like `from`, but for the sources.
   TablesPointer withSource(const Parameters& parameters, const TableDesc& desc, Tables* from,
                            const std::vector<float>& source);
 
  private:
+  ImageInfo imageOf(const Tables* tables, TableId id);
   void upload(Tables* tables, TableId id, const std::vector<float>& rgba);
   void advance();  ///< All that was recorded has completed.
   double run(const std::function<Status(VkCommandBuffer)>& record);

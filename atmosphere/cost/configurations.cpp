@@ -24,18 +24,19 @@ TableDesc moments(Quality quality = Quality::Medium) {
 TableDesc ofSolver(Solver solver, uint32_t samples = 0) {
   TableDesc desc;
   desc.solver = solver;
-  desc.samples = samples;
+  desc.sizes.stepCount = samples;
   return desc;
 }
 
+/// Of the paper's.
 TableSizes standardSizes(double factor) {
-  TableSizes sizes = defaultTableSizes();
+  TableSizes sizes;
   const auto scaled = [factor](uint32_t size) {
     return static_cast<uint32_t>(factor * size / 4.0 + 0.5) * 4;
   };
-  sizes.scatteringR = scaled(sizes.scatteringR);
-  sizes.scatteringMu = scaled(sizes.scatteringMu);
-  sizes.scatteringMuS = scaled(sizes.scatteringMuS);
+  sizes.scatteringR = scaled(32);
+  sizes.scatteringMu = scaled(128);
+  sizes.scatteringMuS = scaled(32);
   return sizes;
 }
 
@@ -60,7 +61,7 @@ class List {
         "5 orders, the paper's table sizes, from a sky slice");
     TableDesc single = moments();
     single.orders = 1;
-    single.without = effectBit(Effect::MultipleScattering);
+    single.disabledEffects = effectBit(Effect::MultipleScattering);
     add("model", "single (moments)", "single", single, "one order, from a sky slice");
     if (!quick_) {
       TableDesc one = ofSolver(Solver::Standard);
@@ -120,19 +121,19 @@ class List {
     }
     struct Setting {
       const char* name;
-      uint32_t MomentSettings::*field;
+      uint32_t TableSizes::*field;
       uint32_t value;
     };
-    constexpr Setting kSettings[] = {{"26 sun nodes (52)", &MomentSettings::nodesMuS, 26},
-                                     {"8 altitudes (15)", &MomentSettings::nodesR, 8},
-                                     {"degree 8 (14)", &MomentSettings::degree, 8},
-                                     {"20 angles (40)", &MomentSettings::sourceGamma, 20},
-                                     {"12 azimuths (24)", &MomentSettings::sourcePsi, 12},
-                                     {"depths of 64 (256)", &MomentSettings::depthMu, 64}};
+    constexpr Setting kSettings[] = {{"26 sun nodes (52)", &TableSizes::nodesMuS, 26},
+                                     {"8 altitudes (15)", &TableSizes::nodesR, 8},
+                                     {"degree 8 (14)", &TableSizes::degree, 8},
+                                     {"20 angles (40)", &TableSizes::sourceGamma, 20},
+                                     {"12 azimuths (24)", &TableSizes::sourcePsi, 12},
+                                     {"depths of 64 (256)", &TableSizes::depthMu, 64}};
     for (const Setting& setting : kSettings) {
       if (quick_) break;
       TableDesc desc = moments();
-      desc.moments.*setting.field = setting.value;
+      desc.sizes.*setting.field = setting.value;
       add("sizes", std::string("moments, ") + setting.name, "moments", desc,
           "one setting of level medium changed");
     }
@@ -142,7 +143,7 @@ class List {
     for (const uint32_t panels :
          quick_ ? std::vector<uint32_t>{3} : std::vector<uint32_t>{2, 3, 4, 9}) {
       TableDesc desc = moments();
-      desc.moments.viewPanels = panels;
+      desc.sizes.viewPanels = panels;
       add("samples", "moments, " + std::to_string(2 * panels) + " a piece", "moments", desc,
           "points on each smooth piece of a ray (12)");
     }
@@ -189,11 +190,11 @@ class List {
     under("every sun", moments(), "seen from the ground under a sun 3 degrees high");
     TableDesc one = moments();
     one.sunZenithFrom = one.sunZenithTo = zenith;
-    one.moments.depthMu = 128;
-    one.moments.depthH = 64;
+    one.sizes.depthMu = 128;
+    one.sizes.depthH = 64;
     under("one evening sun", one, "tables for that sun alone");
     one.quality = Quality::High;
-    one.moments = {};
+    one.sizes = {};
     if (!quick_) under("one evening sun, high", one, "as large as those of every sun");
     TableDesc day = moments();
     day.sunZenithFrom = 0.01;

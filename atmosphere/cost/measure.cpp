@@ -48,7 +48,7 @@ struct Truth {
 Truth wholeRays(const truth::TruthSet& set) {
   Truth truth{set, {}, {}};
   for (const truth::TruthQuery& q : truth.set.queries)
-    if (!q.query.irradiance && q.query.distance_m < 0.0 && q.band != truth::Band::Night)
+    if (q.query.kind == QueryKind::Ray && !q.query.bounded && q.band != truth::Band::Night)
       truth.queries.push_back(&q);
   // Neighbours share a sky slice.
   std::ranges::stable_sort(truth.queries, [](const auto* a, const auto* b) {
@@ -137,8 +137,8 @@ TablesPointer Sweep::bakeTimed(const Configuration& configuration, Row* row) {
 
 // With the table of sources rounded, which is the one that is stored in half floats.
 TablesPointer Sweep::rounded(Tables* tables, const Configuration& configuration) {
-  TableInfo info;
-  std::vector<float> rgba = bench_.readTable(tables, TableId::Source, &info);
+  ImageInfo info;
+  std::vector<float> rgba = bench_.readTable(tables, kTableSource, &info);
   for (size_t i = 0; i < rgba.size(); i += 4) {
     float rgb[3];
     unpackSharedExponent(packSharedExponent(&rgba[i]), rgb);

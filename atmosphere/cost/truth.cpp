@@ -21,7 +21,7 @@ std::string fileOf(const std::string& folder, const std::string& name, const cha
 /// The set's irradiance query on the ground under a sun; null if it has none.
 const TruthQuery* groundLight(const std::vector<TruthQuery>& queries, double sunElevation) {
   for (const TruthQuery& q : queries) {
-    const bool onGround = q.query.irradiance && q.query.altitude_m == 0.0;
+    const bool onGround = q.query.kind == QueryKind::Irradiance && q.query.altitude_m == 0.0;
     if (onGround && std::abs(q.sunElevation - sunElevation) < 1e-5) return &q;
   }
   return nullptr;
@@ -134,7 +134,7 @@ AnswerError errorOf(const TruthQuery& query, const ProbeAnswer& answer) {
   const ProbeAnswer& truth = query.truth.value;
   const Spectrum& e = query.groundIrradiance;
   AnswerError error;
-  if (query.query.irradiance) {
+  if (query.query.kind == QueryKind::Irradiance) {
     error.direct = worst(answer.direct, truth.direct, e);
     error.skyIrradiance = worst(answer.sky, truth.sky, e);
     return error;

@@ -4,7 +4,7 @@
 
 #include <alpenglow/io/result.h>
 #include <alpenglow/parameters.h>
-#include <alpenglow/probe.h>
+#include <alpenglow/query.h>
 #include <alpenglow/reference.h>
 
 #include <string>

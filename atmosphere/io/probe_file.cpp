@@ -20,7 +20,7 @@ ProbeQuery irradianceQuery(JsonErrors* errors, const Json& value, const std::str
   ObjectReader reader(errors, value, "", suffix, {"id", "kind", "altitude_m", "sun_zenith_deg"});
   reader.choice("kind", {"irradiance"});
   ProbeQuery query;
-  query.irradiance = true;
+  query.kind = QueryKind::Irradiance;
   query.altitude_m = reader.number("altitude_m", 0.0, kMaxAltitude_m);
   query.sunZenith = radians(reader.number("sun_zenith_deg", 0.0, 180.0));
   return query;
@@ -32,10 +32,11 @@ ProbeQuery rayQuery(JsonErrors* errors, const Json& value, const std::string& su
                        "azimuth_deg", "distance_m"});
   ProbeQuery query;
   query.altitude_m = reader.number("altitude_m", 0.0, kMaxAltitude_m);
-  query.viewZenith = radians(reader.number("view_zenith_deg", 0.0, 180.0));
+  query.zenith = radians(reader.number("view_zenith_deg", 0.0, 180.0));
   query.sunZenith = radians(reader.number("sun_zenith_deg", 0.0, 180.0));
   query.azimuth = azimuthRadians(reader.number("azimuth_deg"));
-  if (reader.given("distance_m")) query.distance_m = reader.number("distance_m", 0.0, kInfinity);
+  query.bounded = reader.given("distance_m");
+  if (query.bounded) query.distance_m = reader.number("distance_m", 0.0, kInfinity);
   return query;
 }
 
@@ -77,7 +78,7 @@ OrderedJson spectrumJson(JsonErrors* errors, const Spectrum& spectrum, const std
 void addValues(JsonErrors* errors, const ProbeQuery& query, const ProbeAnswer& answer,
                OrderedJson* out) {
   OrderedJson& json = *out;
-  if (query.irradiance) {
+  if (query.kind == QueryKind::Irradiance) {
     json["direct"] = spectrumJson(errors, answer.direct, "direct");
     json["sky"] = spectrumJson(errors, answer.sky, "sky");
     return;
@@ -139,7 +140,7 @@ ReferenceAnswer answerFromJson(JsonErrors* errors, const Json& value, const Name
     errors->add("the answer to query '" + named.id + "' is not where it was expected.");
     return {};
   }
-  return named.query.irradiance ? irradianceAnswer(errors, value, suffix)
+  return named.query.kind == QueryKind::Irradiance ? irradianceAnswer(errors, value, suffix)
                                 : rayAnswer(errors, value, suffix);
 }
 
@@ -157,7 +158,7 @@ Result<std::string> format(const std::vector<NamedQuery>& queries,
     OrderedJson entry;
     entry["id"] = queries[i].id;
     const ProbeQuery& query = queries[i].query;
-    if (!query.irradiance) entry["hits_ground"] = valueOf(answers[i]).hitsGround;
+    if (query.kind == QueryKind::Ray) entry["hits_ground"] = valueOf(answers[i]).hitsGround;
     addValues(&errors, query, valueOf(answers[i]), &entry);
     if (const ProbeAnswer* error = errorOf(answers[i])) {
       addValues(&errors, query, *error, &entry["standard_error"]);

@@ -5,28 +5,28 @@
 
 #include <array>
 #include <cstdio>
+#include <iterator>
 #include <string_view>
+
+#include "atmosphere/model/table_limits.h"
 
 namespace alpenglow::io {
 namespace {
 
-constexpr uint32_t kDefaultOrders = 5;  // Of the standard solver.
-constexpr uint32_t kMomentLayers = 5;   // Of TableId::Moments, below each other.
+constexpr uint32_t kMomentLayers = 5;  // Of kTableMoments, below each other.
 // The headers of a file stand at its start; the digits are never further in than this.
 constexpr size_t kMaxHeaderBytes = size_t{1} << 20;
 
-void fillZeros(TableSizes* sizes) {
-  const TableSizes defaults = defaultTableSizes();
-  const auto fill = [](uint32_t* size, uint32_t value) { *size = *size == 0 ? value : *size; };
-  fill(&sizes->transmittanceMu, defaults.transmittanceMu);
-  fill(&sizes->transmittanceR, defaults.transmittanceR);
-  fill(&sizes->irradianceMuS, defaults.irradianceMuS);
-  fill(&sizes->irradianceR, defaults.irradianceR);
-  fill(&sizes->scatteringR, defaults.scatteringR);
-  fill(&sizes->scatteringMu, defaults.scatteringMu);
-  fill(&sizes->scatteringMuS, defaults.scatteringMuS);
-  fill(&sizes->scatteringNu, defaults.scatteringNu);
-}
+constexpr uint32_t TableSizes::* kSizes[] = {
+    &TableSizes::depthMu,         &TableSizes::depthH,         &TableSizes::nodesR,
+    &TableSizes::nodesMuS,        &TableSizes::zenithsSky,     &TableSizes::zenithsLimb,
+    &TableSizes::zenithsGround,   &TableSizes::azimuths,       &TableSizes::degree,
+    &TableSizes::sourceGamma,     &TableSizes::sourcePsi,      &TableSizes::solverPanels,
+    &TableSizes::viewPanels,      &TableSizes::transmittanceMu, &TableSizes::transmittanceR,
+    &TableSizes::irradianceMuS,   &TableSizes::irradianceR,    &TableSizes::scatteringR,
+    &TableSizes::scatteringMu,    &TableSizes::scatteringMuS,  &TableSizes::scatteringNu,
+    &TableSizes::stepCount};
+static_assert(sizeof(TableSizes) == std::size(kSizes) * sizeof(uint32_t), "none is forgotten");
 
 TablePart irradiancePart(const TableDesc& desc, const std::string& name) {
   return {name, desc.sizes.irradianceMuS, desc.sizes.irradianceR, 1, desc.format, {}};
@@ -43,18 +43,18 @@ TablePart scatteringPart(const TableDesc& desc, const std::string& name) {
 }
 
 TablePart momentsPart(const TableDesc& desc, const std::string& name) {
-  const MomentSettings& m = desc.moments;
+  const TableSizes& m = desc.sizes;
   return {name, fieldTexels(m.nodesMuS), fieldTexels(m.nodesR) * kMomentLayers, 1, desc.format, {}};
 }
 
 // Of a single order: the nodes alone.
 TablePart orderMomentsPart(const TableDesc& desc, const std::string& name) {
-  const MomentSettings& m = desc.moments;
+  const TableSizes& m = desc.sizes;
   return {name, m.nodesMuS, m.nodesR * kMomentLayers, 1, desc.format, {}};
 }
 
 TablePart sourcePart(const TableDesc& desc, const std::string& name) {
-  const MomentSettings& m = desc.moments;
+  const TableSizes& m = desc.sizes;
   return {name, m.sourceGamma * m.sourcePsi, m.nodesMuS, m.nodesR, desc.format, {}};
 }
 
@@ -66,7 +66,7 @@ Done checkTexels(const std::string& what, std::initializer_list<uint32_t> sides)
           std::to_string(kMaxTableTexels) + " are allowed."};
 }
 
-Done checkMomentSizes(const MomentSettings& m) {
+Done checkMomentSizes(const TableSizes& m) {
   Done done = checkMomentSettings(m);
   if (done) done = checkTexels("of the optical depth", {m.depthMu, m.depthH});
   if (done)
@@ -97,7 +97,7 @@ Done checkStandardSizes(const TableSizes& s) {
 }
 
 std::vector<TablePart> momentParts(const TableDesc& desc) {
-  const MomentSettings& m = desc.moments;
+  const TableSizes& m = desc.sizes;
   return {{"optical_depth", m.depthMu, m.depthH, 1, desc.format, {}},
           momentsPart(desc, "moments"),
           sourcePart(desc, "source")};
@@ -169,18 +169,17 @@ const TablePart* TableFile::find(const std::string& name) const {
 }
 
 TableDesc resolved(TableDesc desc, const Parameters& parameters) {
-  if (desc.solver == Solver::Moments) {
-    if (desc.quality == Quality::Default) desc.quality = Quality::Medium;
-    desc.moments = momentSettings(parameters, desc.quality, desc.moments);
-    return desc;
-  }
-  fillZeros(&desc.sizes);
-  if (desc.orders == 0) desc.orders = kDefaultOrders;
-  return desc;
+  // A size that is out of bounds stays as it is: checkSizes has a sentence for it.
+  TableDesc full = desc;
+  full.sizes = {};
+  if (resolveTableDesc(parameters, &full, {}) != Status::Ok) return desc;
+  for (const auto size : kSizes)
+    if (desc.sizes.*size != 0) full.sizes.*size = desc.sizes.*size;
+  return full;
 }
 
 Done checkSizes(const TableDesc& desc) {
-  return desc.solver == Solver::Moments ? checkMomentSizes(desc.moments)
+  return desc.solver == Solver::Moments ? checkMomentSizes(desc.sizes)
                                         : checkStandardSizes(desc.sizes);
 }
 

@@ -33,7 +33,7 @@ std::optional<size_t> findChecksum(const std::string& bytes);
 std::string checksum(std::string* bytes, size_t digits);
 
 /// Empty, or a sentence about the first setting that is not from 2 to kMaxTableSide or kMaxDegree.
-Done checkMomentSettings(const MomentSettings& settings);
+Done checkMomentSettings(const TableSizes& settings);
 
 /// Bytes that the texels of a part must have.
 size_t expectedBytes(const TablePart& part);

@@ -1,33 +1,35 @@
 // Names of solvers and qualities, and the moment solver's settings as text.
 #include <algorithm>
+#include <cstddef>
 
 #include "atmosphere/io/table_format.h"
+#include "atmosphere/model/table_limits.h"
 
 namespace alpenglow::io {
 namespace {
 
 struct Field {
   const char* name;
-  uint32_t MomentSettings::*member;
+  uint32_t TableSizes::*member;
   uint32_t most;
 };
 
-// As the header spells them, which is how the library's own sentences do.
-constexpr Field kFields[] = {{"depthMu", &MomentSettings::depthMu, kMaxTableSide},
-                             {"depthH", &MomentSettings::depthH, kMaxTableSide},
-                             {"nodesR", &MomentSettings::nodesR, kMaxTableSide},
-                             {"nodesMuS", &MomentSettings::nodesMuS, kMaxTableSide},
-                             {"ringsSky", &MomentSettings::ringsSky, kMaxTableSide},
-                             {"ringsLimb", &MomentSettings::ringsLimb, kMaxTableSide},
-                             {"ringsGround", &MomentSettings::ringsGround, kMaxTableSide},
-                             {"azimuths", &MomentSettings::azimuths, kMaxTableSide},
-                             {"degree", &MomentSettings::degree, kMaxDegree},
-                             {"sourceGamma", &MomentSettings::sourceGamma, kMaxTableSide},
-                             {"sourcePsi", &MomentSettings::sourcePsi, kMaxTableSide},
-                             {"solverPanels", &MomentSettings::solverPanels, kMaxTableSide},
-                             {"viewPanels", &MomentSettings::viewPanels, kMaxTableSide}};
-static_assert(sizeof(MomentSettings) == std::size(kFields) * sizeof(uint32_t),
-              "every field has its name");
+// The names that files and the command line have.
+constexpr Field kFields[] = {{"depthMu", &TableSizes::depthMu, kMaxTableSide},
+                             {"depthH", &TableSizes::depthH, kMaxTableSide},
+                             {"nodesR", &TableSizes::nodesR, kMaxTableSide},
+                             {"nodesMuS", &TableSizes::nodesMuS, kMaxTableSide},
+                             {"ringsSky", &TableSizes::zenithsSky, kMaxTableSide},
+                             {"ringsLimb", &TableSizes::zenithsLimb, kMaxTableSide},
+                             {"ringsGround", &TableSizes::zenithsGround, kMaxTableSide},
+                             {"azimuths", &TableSizes::azimuths, kMaxTableSide},
+                             {"degree", &TableSizes::degree, kMaxDegree},
+                             {"sourceGamma", &TableSizes::sourceGamma, kMaxTableSide},
+                             {"sourcePsi", &TableSizes::sourcePsi, kMaxTableSide},
+                             {"solverPanels", &TableSizes::solverPanels, kMaxTableSide},
+                             {"viewPanels", &TableSizes::viewPanels, kMaxTableSide}};
+static_assert(offsetof(TableSizes, transmittanceMu) == std::size(kFields) * sizeof(uint32_t),
+              "every field of the moment solver has its name");
 
 constexpr uint32_t kLeastSetting = 2;
 
@@ -43,7 +45,7 @@ uint32_t wholeNumber(const std::string& text) {
   return good ? static_cast<uint32_t>(std::stoul(text)) : 0;
 }
 
-Done parseSetting(const std::string& text, MomentSettings* settings) {
+Done parseSetting(const std::string& text, TableSizes* settings) {
   const size_t equals = std::min(text.find('='), text.size());
   const std::string name = text.substr(0, equals);
   const std::string value = text.substr(std::min(equals + 1, text.size()));
@@ -101,7 +103,7 @@ std::optional<Quality> findQuality(const std::string& name) {
   return static_cast<Quality>(index + static_cast<size_t>(Quality::Draft));
 }
 
-std::string momentSettingsText(const MomentSettings& settings) {
+std::string momentSettingsText(const TableSizes& settings) {
   std::string text;
   for (const Field& field : kFields) {
     const uint32_t value = settings.*field.member;
@@ -111,8 +113,8 @@ std::string momentSettingsText(const MomentSettings& settings) {
   return text;
 }
 
-Done parseMomentSettings(const std::string& text, MomentSettings* settings) {
-  MomentSettings given;
+Done parseMomentSettings(const std::string& text, TableSizes* settings) {
+  TableSizes given;
   for (size_t start = 0; start <= text.size();) {
     const size_t end = std::min(text.find(',', start), text.size());
     if (Done done = parseSetting(text.substr(start, end - start), &given); !done) return done;
@@ -124,7 +126,7 @@ Done parseMomentSettings(const std::string& text, MomentSettings* settings) {
   return {};
 }
 
-Done checkMomentSettings(const MomentSettings& settings) {
+Done checkMomentSettings(const TableSizes& settings) {
   for (const Field& field : kFields) {
     const uint32_t value = settings.*field.member;
     if (value >= kLeastSetting && value <= field.most) continue;

@@ -29,7 +29,7 @@ void describe(const TableFile& file, OIIO::ImageSpec* spec) {
   spec->attribute(kTexelsAttribute, desc.format == TableFormat::Half ? "half" : "float");
   if (desc.solver == Solver::Moments) {
     spec->attribute(kQualityAttribute, qualityName(desc.quality));
-    spec->attribute(kMomentsAttribute, momentSettingsText(desc.moments));
+    spec->attribute(kMomentsAttribute, momentSettingsText(desc.sizes));
   } else {
     spec->attribute(kMieAttribute, desc.mie == MieStorage::Full ? "full" : "packed");
     spec->attribute(kTransmittanceAttribute, transmittanceSizeText(desc.sizes));
@@ -63,7 +63,7 @@ std::vector<OIIO::ImageSpec> specsOf(const TableFile& file) {
 
 Done checkParts(const TableFile& file) {
   if (Done done = checkSizes(file.desc); !done) return done;
-  if (file.desc.without != 0 || file.desc.sunZenithFrom != 0.0 || file.desc.sunZenithTo != 0.0) {
+  if (file.desc.disabledEffects != 0 || file.desc.sunZenithFrom != 0.0 || file.desc.sunZenithTo != 0.0) {
     return {
         "A table file holds whole tables alone, but this description leaves out effects or suns."};
   }

@@ -2,7 +2,7 @@
 // for the reference alike. The rules are those of docs/file-formats.md, "Probe files".
 #pragma once
 
-#include <alpenglow/probe.h>
+#include <alpenglow/query.h>
 
 #include "atmosphere/model/physics_cpp.h"
 

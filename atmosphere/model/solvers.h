@@ -9,8 +9,9 @@ namespace alpenglow {
 constexpr bool isModel(Solver solver) { return solver > Solver::Standard; }
 /// Those whose views may look into a sky slice.
 constexpr bool hasSkySlice(Solver solver) { return !isModel(solver) || solver == Solver::Hillaire; }
-/// Those whose rays take TableDesc::samples points, and how many by default; 0: not of this solver.
-constexpr uint32_t defaultSamples(Solver solver) {
+/// Those whose rays take TableSizes::stepCount points, and how many by default; 0: not of this
+/// solver.
+constexpr uint32_t defaultStepCount(Solver solver) {
   return solver == Solver::ONeil ? 10 : solver == Solver::Hillaire ? 32 : 0;
 }
 inline constexpr uint32_t kSolverCount = 6;

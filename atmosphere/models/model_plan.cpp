@@ -115,7 +115,7 @@ SolverPlan modelPlan(const Parameters& parameters, const TableDesc& desc, TableF
   constants.scatteringMu = f(kSingleExtent.height);
   constants.scatteringR = f(kSingleExtent.depth);
   constants.scatteringNu = 1.0f;
-  constants.samples = f(desc.samples);
+  constants.samples = f(desc.sizes.stepCount);
   plan.uniforms.resize(sizeof constants);
   std::memcpy(plan.uniforms.data(), &constants, sizeof constants);
   return plan;

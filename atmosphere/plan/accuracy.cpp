@@ -112,8 +112,8 @@ void describeSuns(Plan* plan) {
 
 void describeDepths(Plan* plan) {
   const TableDesc& base = plan->request.tables;
-  const MomentSettings& settings = plan->tables.moments;
-  if (settings.depthMu == base.moments.depthMu && settings.depthH == base.moments.depthH) return;
+  const TableSizes& settings = plan->tables.sizes;
+  if (settings.depthMu == base.sizes.depthMu && settings.depthH == base.sizes.depthH) return;
   model::Sentence value, why;
   value << settings.depthMu << " x " << settings.depthH;
   why << "Beside tables for few suns that of optical depths is the largest, and so many texels "
@@ -227,8 +227,8 @@ void fitDepths(Plan* plan) {
   const bool few = desc.sunZenithTo > 0.0 && desc.sunZenithTo - desc.sunZenithFrom <= kFewSuns;
   const bool fine = levelOf(desc.quality) >= Quality::Medium;
   if (base.solver != Solver::Moments || !few || !fine) return;
-  if (base.moments.depthMu == 0) desc.moments.depthMu = kFewDepthMu;
-  if (base.moments.depthH == 0) desc.moments.depthH = kFewDepthH;
+  if (base.sizes.depthMu == 0) desc.sizes.depthMu = kFewDepthMu;
+  if (base.sizes.depthH == 0) desc.sizes.depthH = kFewDepthH;
 }
 
 void describeChoices(const Parameters& parameters, uint32_t solvedOrders, Quality unbound,

@@ -1,5 +1,7 @@
 // Whether a plan covers another request, and what must be recreated when it doesn't.
+#include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <type_traits>
 
 #include "atmosphere/plan/rules.h"
@@ -46,18 +48,23 @@ bool coversWishes(const Plan& plan, const PlanRequest& request) {
   return error >= plan::wantedError(plan.request) || plan.expectedError <= error;
 }
 
+bool sameLight(const LightDesc& a, const LightDesc& b) {
+  return a.kind == b.kind && std::equal(std::begin(a.irradiance.value),
+                                        std::end(a.irradiance.value), b.irradiance.value);
+}
+
 /// What tables the host asks for, but for what a plan decides where it isn't given.
 bool sameShape(const TableDesc& a, const TableDesc& b) {
-  static_assert(std::has_unique_object_representations_v<MomentSettings> &&
-                std::has_unique_object_representations_v<TableSizes>);
-  return a.keepOrders == b.keepOrders && a.samples == b.samples &&
-         std::memcmp(&a.moments, &b.moments, sizeof a.moments) == 0 &&
+  static_assert(std::has_unique_object_representations_v<TableSizes>);
+  return a.keepOrders == b.keepOrders && a.cpuQueries == b.cpuQueries &&
+         a.readerStages == b.readerStages &&
+         std::equal(std::begin(a.lights), std::end(a.lights), std::begin(b.lights), sameLight) &&
          std::memcmp(&a.sizes, &b.sizes, sizeof a.sizes) == 0;
 }
 
 bool coversTables(const TableDesc& has, const TableDesc& asked) {
   return has.solver == asked.solver && has.orders == asked.orders && has.format == asked.format &&
-         has.quality == asked.quality && has.mie == asked.mie && has.without == asked.without &&
+         has.quality == asked.quality && has.mie == asked.mie && has.disabledEffects == asked.disabledEffects &&
          has.sunZenithFrom == asked.sunZenithFrom && has.sunZenithTo == asked.sunZenithTo &&
          sameShape(has, asked);
 }
@@ -83,11 +90,11 @@ const char* tableChange(const Plan& has, const Plan& asked) {
   if (!sameShape(has.request.tables, asked.request.tables))
     return "The tables have other sizes than are given.";
   if (!holdsSuns(a, b)) return "The tables don't reach all suns that may come.";
-  if ((a.without & ~b.without) != 0) return "The tables are without an effect that is on now.";
-  const bool forced = ((b.without & ~a.without) & kTableEffects) != 0;
+  if ((a.disabledEffects & ~b.disabledEffects) != 0) return "The tables are without an effect that is on now.";
+  const bool forced = ((b.disabledEffects & ~a.disabledEffects) & kTableEffects) != 0;
   if (forced) {
     for (uint32_t i = 0; i < kEffectCount; ++i) {
-      const bool off = (b.without & ~a.without & effectBit(static_cast<Effect>(i))) != 0;
+      const bool off = (b.disabledEffects & ~a.disabledEffects & effectBit(static_cast<Effect>(i))) != 0;
       if (off && asked.choices[i].forced)
         return "The tables hold an effect that has been turned off.";
     }
@@ -126,7 +133,7 @@ RecreateFlags comparePlans(const Plan& current, const Plan& next, const Diagnost
   if (view == nullptr) view = shaftChange(current, next);
   const TableDesc &a = current.tables, &b = next.tables;
   // A view is of tables of one kind.
-  const bool other = a.without != b.without || a.solver != b.solver || a.mie != b.mie ||
+  const bool other = a.disabledEffects != b.disabledEffects || a.solver != b.solver || a.mie != b.mie ||
                      plan::levelOf(a.quality) != plan::levelOf(b.quality);
   RecreateFlags flags = 0;
   if (tables != nullptr) flags |= kRecreateTables;

@@ -57,7 +57,7 @@ class Decider {
       const bool forcedOn = force == Force::On;
       why << "Turned " << (forcedOn ? "on" : "off") << " by the scene.";
       write(effect, forcedOn, true, why);
-    } else if (table && !hasEffect(base_.without, effect)) {
+    } else if (table && !hasEffect(base_.disabledEffects, effect)) {
       why << "The given description of the tables is without it.";
       write(effect, false, true, why);
     } else if (table && base_.solver != Solver::Moments) {
@@ -289,8 +289,8 @@ void applyEffects(const Parameters& parameters, Plan* plan) {
   for (uint32_t i = 0; i < kEffectCount; ++i)
     if (!plan->choices[i].on) without |= effectBit(static_cast<Effect>(i));
   const bool moments = desc.solver == Solver::Moments;
-  desc.without = moments ? without & kTableEffects : base.without;
-  plan->viewWithout = (without & kViewEffects) | desc.without;
+  desc.disabledEffects = moments ? without & kTableEffects : base.disabledEffects;
+  plan->viewWithout = (without & kViewEffects) | desc.disabledEffects;
   if (moments && base.sunZenithFrom == 0.0 && base.sunZenithTo == 0.0) {
     constexpr double kRightAngle = 90.0 * kDegree;
     const SunRange suns = tableSuns(parameters, *plan);

@@ -66,7 +66,7 @@ Status checkRequest(const PlanRequest& n, model::Sentence* why) {
 Status checkTables(const PlanRequest& request, model::Sentence* why) {
   const TableDesc& base = request.tables;
   const bool single = request.effects[uint32_t(Effect::MultipleScattering)] == Force::Off ||
-                      !hasEffect(base.without, Effect::MultipleScattering);
+                      !hasEffect(base.disabledEffects, Effect::MultipleScattering);
   if (single && base.orders > 1) {
     *why << "TableDesc::orders is " << base.orders
          << ", but multiple_scattering is off, which leaves order 1: give 0 or 1.";

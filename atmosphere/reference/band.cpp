@@ -12,9 +12,10 @@ namespace reference {
 
 double bandSunElevation(const physics_f64::Medium& medium, const ProbeQuery& query) {
   double muS = std::cos(query.sunZenith);
-  if (!query.irradiance && query.altitude_m > medium.thickness) {
+  if (query.kind == QueryKind::Ray && query.altitude_m > medium.thickness) {
     ProbeQuery whole = query;
-    whole.distance_m = -1.0;
+    whole.bounded = false;
+    whole.distance_m = 0.0;
     const ResolvedQuery resolved = resolveQuery(medium, whole);
     if (!resolved.empty) {
       const physics_f64::Ray& ray = resolved.ray;

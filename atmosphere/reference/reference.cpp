@@ -57,7 +57,7 @@ ReferenceAnswer evaluate(const PathTracer& tracer, const ProbeQuery& query,
   const Medium& medium = tracer.medium();
   const uint32_t orders = options.orders == 0 ? kAllOrders : options.orders;
   ReferenceAnswer answer = singleScattering(medium, query, kRelativeTolerance);
-  Task task = query.irradiance ? irradianceTask(medium, query, orders)
+  Task task = query.kind == QueryKind::Irradiance ? irradianceTask(medium, query, orders)
                                : rayTask(medium, query, answer, orders);
   if (!task.air && !task.surface) return answer;
   double target = 0.0;
@@ -71,7 +71,7 @@ ReferenceAnswer evaluate(const PathTracer& tracer, const ProbeQuery& query,
   constexpr Spectrum kOne = {{1.0, 1.0, 1.0}};
   if (task.air)
     addTo(&answer.value.skyRadiance, &answer.standardError.skyRadiance, result.air, kOne);
-  if (task.surface && query.irradiance) {
+  if (task.surface && query.kind == QueryKind::Irradiance) {
     addTo(&answer.value.sky, &answer.standardError.sky, result.surface, kOne);
   } else if (task.surface) {
     addTo(&answer.value.groundRadiance, &answer.standardError.groundRadiance, result.surface,

@@ -14,10 +14,11 @@ ProbeQuery queryOf(const Medium& medium, const SceneRay& ray, double length) {
   const Vector up = glm::normalize(ray.position);
   ProbeQuery query;
   query.altitude_m = std::max(glm::length(ray.position) - medium.bottomRadius, 0.0);
-  query.viewZenith = angleBetween(up, ray.view);
+  query.zenith = angleBetween(up, ray.view);
   query.sunZenith = angleBetween(up, ray.sun);
   const Vector across = glm::cross(up, ray.view);
   query.azimuth = std::atan2(glm::dot(across, ray.sun), glm::dot(glm::cross(across, up), ray.sun));
+  query.bounded = true;
   query.distance_m = length;
   return query;
 }

@@ -58,9 +58,9 @@ SunlitRay makeSunlitRay(const Medium& medium, const ProbeQuery& query,
                         const ResolvedQuery& resolved) {
   using glm::dvec3;
   const dvec3 vertical(0.0, 0.0, 1.0);
-  const double viewSine = std::sin(query.viewZenith);
+  const double viewSine = std::sin(query.zenith);
   const double sunSine = std::sin(query.sunZenith);
-  const dvec3 view(viewSine, 0.0, std::cos(query.viewZenith));
+  const dvec3 view(viewSine, 0.0, std::cos(query.zenith));
   const dvec3 sun(sunSine * std::cos(query.azimuth), sunSine * std::sin(query.azimuth),
                   std::cos(query.sunZenith));
   const dvec3 normal = glm::cross(sun, view);
@@ -237,15 +237,15 @@ Status checkQuery(const ProbeQuery& query, const DiagnosticSink& sink) {
   // Queries in degrees come as rounded radians, so the nadir may exceed pi by a bit.
   constexpr double kMost = std::numbers::pi * (1 + 1e-15),
                    kAny = std::numeric_limits<double>::max();
-  const bool ray = !query.irradiance;
+  const bool ray = query.kind != QueryKind::Irradiance;
   const struct {
     const char* name;
     double value, least, most;
   } fields[] = {{"altitude_m", query.altitude_m, 0.0, kAny},
                 {"sunZenith", query.sunZenith, 0.0, kMost},
-                {"viewZenith", ray ? query.viewZenith : 0.0, 0.0, kMost},
+                {"zenith", ray ? query.zenith : 0.0, 0.0, kMost},
                 {"azimuth", ray ? query.azimuth : 0.0, -kAny, kAny},
-                {"distance_m", ray ? query.distance_m : 0.0, -kAny, kAny}};
+                {"distance_m", ray ? query.distance_m : 0.0, 0.0, kAny}};
   for (const auto& field : fields) {
     if (field.value >= field.least && field.value <= field.most) continue;
     model::Sentence why;
@@ -268,7 +268,7 @@ Status outOfMemory(const DiagnosticSink& sink, const char* function) {
 ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, double tolerance,
                                  std::span<const RayInterval> shadow) {
   ReferenceAnswer answer;
-  if (query.irradiance) {
+  if (query.kind == QueryKind::Irradiance) {
     const Estimate direct = directIrradiance(medium, query.altitude_m, std::cos(query.sunZenith),
                                              depthTolerance(tolerance));
     answer.value.direct = direct.value;

@@ -19,23 +19,48 @@ constexpr VkDescriptorSetLayoutBinding kBindings[2] = {
     {0, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr},
     {1, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr}};
 
-}  // namespace
-
 Status checkQuery(const engine::Device& device, uint32_t index, const ProbeQuery& query) {
+  if (query.kind > QueryKind::Irradiance) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "ProbeQuery %u has kind = %u, but the enumeration ends at %u.", index,
+                       static_cast<uint32_t>(query.kind),
+                       static_cast<uint32_t>(QueryKind::Irradiance));
+  }
+  if (query.light != 0) {
+    return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                       "ProbeQuery %u has light = %u, but it must be 0 in this version.", index,
+                       query.light);
+  }
   constexpr double kPi = 3.14159265358979323846;
+  const bool ray = query.kind == QueryKind::Ray;
+  // Of an irradiance, what belongs to a ray does nothing: 0.
   const struct {
     const char* name;
     double value, least, most;
   } fields[] = {{"altitude_m", query.altitude_m, 0.0, 1e12},
-                {"viewZenith", query.irradiance ? 0.0 : query.viewZenith, 0.0, kPi},
+                {"zenith", query.zenith, 0.0, ray ? kPi : 0.0},
                 {"sunZenith", query.sunZenith, 0.0, kPi},
-                {"azimuth", query.irradiance ? 0.0 : query.azimuth, -1e9, 1e9},
-                {"distance_m", query.irradiance ? 0.0 : query.distance_m, -DBL_MAX, DBL_MAX}};
+                {"azimuth", query.azimuth, ray ? -1e9 : 0.0, ray ? 1e9 : 0.0},
+                {"bounded", query.bounded ? 1.0 : 0.0, 0.0, ray ? 1.0 : 0.0},
+                {"distance_m", query.distance_m, 0.0, query.bounded ? DBL_MAX : 0.0}};
   for (const auto& field : fields) {
     if (field.value >= field.least && field.value <= field.most) continue;
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "ProbeQuery %u has %s = %g, but it must be from %g to %g.", index,
-                       field.name, field.value, field.least, field.most);
+                       "ProbeQuery %u has %s = %g, but %s must be from %g to %g.", index,
+                       field.name, field.value,
+                       ray ? query.bounded ? "that of a bounded ray" : "that of an unbounded ray"
+                           : "that of an irradiance",
+                       field.least, field.most);
+  }
+  return Status::Ok;
+}
+
+}  // namespace
+
+Status checkQueries(const engine::Device& device, const ProbeQuery* queries, uint32_t count) {
+  for (uint32_t i = 0; i < count; ++i) {
+    const Status status = checkQuery(device, i, queries[i]);
+    if (status != Status::Ok) return status;
   }
   return Status::Ok;
 }
@@ -43,7 +68,7 @@ Status checkQuery(const engine::Device& device, uint32_t index, const ProbeQuery
 PreparedQuery prepareQuery(const physics_f64::Medium& medium, const ProbeQuery& query) {
   const auto f = [](double value) { return static_cast<float>(value); };
   PreparedQuery prepared = {};
-  if (query.irradiance) {
+  if (query.kind == QueryKind::Irradiance) {
     prepared.h = f(query.altitude_m);
     prepared.muS = f(std::cos(query.sunZenith));
     prepared.flags = kIrradiance | (query.altitude_m > medium.thickness ? kEmpty : 0u);
@@ -100,14 +125,14 @@ Status ProbePass::makeLayouts() {
 
 Status ProbePass::pipeline(const TableDesc& tables, VkPipeline* out) try {
   const std::scoped_lock lock(mutex_);
-  VkPipeline& slot = pipelines_[{tables.solver, tables.mie, tables.without}];
+  VkPipeline& slot = pipelines_[{tables.solver, tables.mie, tables.disabledEffects}];
   Status status = Status::Ok;
   if (slot == VK_NULL_HANDLE) {
     engine::SpecConstant constants[1 + bake::kEffectConstants] = {
         engine::specBool(0, tables.mie == MieStorage::Packed)};
-    std::ranges::copy(bake::effectConstants(tables.without), constants + 1);
+    std::ranges::copy(bake::effectConstants(tables.disabledEffects), constants + 1);
     engine::ComputePipelineDesc desc;
-    desc.shader = probeShader(tables.solver, tables.without);
+    desc.shader = probeShader(tables.solver, tables.disabledEffects);
     desc.layout = layout_;
     desc.constants = constants;
     desc.constantCount = 1 + bake::kEffectConstants;
@@ -154,15 +179,17 @@ Status ProbePass::record(const Tables& tables, VkCommandBuffer commands,
                         "buffer for the answers.",
                         count, static_cast<unsigned long long>(most));
   }
-  if (&tables.resources() != &resources_) {
+  constexpr VkPipelineStageFlags2 kProbing =
+      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+  if ((tables.desc().readerStages & kProbing) == 0) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
-                        "recordProbe got tables of another context, but needs those of its own.");
+                        "recordProbe reads tables in the compute stage, but the readerStages of "
+                        "these, 0x%llx, are without it.",
+                        static_cast<unsigned long long>(tables.desc().readerStages));
   }
-  for (uint32_t i = 0; i < count; ++i) {
-    const Status checked = checkQuery(device_, i, queries[i]);
-    if (checked != Status::Ok) return checked;
-  }
-  Status status = tables.assertReadable();
+  Status status = checkQueries(device_, queries, count);
+  if (status != Status::Ok) return status;
+  status = tables.assertReadable();
   if (status != Status::Ok) return status;
   VkPipeline chosen = VK_NULL_HANDLE;
   status = pipeline(tables.desc(), &chosen);

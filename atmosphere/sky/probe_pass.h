@@ -1,7 +1,7 @@
 // The compute pass that answers point queries from the tables.
 #pragma once
 
-#include <alpenglow/probe.h>
+#include <alpenglow/query.h>
 
 #include <map>
 #include <mutex>
@@ -20,7 +20,7 @@ struct PreparedQuery {
 static_assert(sizeof(PreparedQuery) == 32);
 
 /// Ok, or a sentence that names the query by its index and the field.
-Status checkQuery(const engine::Device& device, uint32_t index, const ProbeQuery& query);
+Status checkQueries(const engine::Device& device, const ProbeQuery* queries, uint32_t count);
 PreparedQuery prepareQuery(const physics_f64::Medium& medium, const ProbeQuery& query);
 
 /// Layouts and pipelines of the pass; one for each context. Thread-safe.

@@ -47,7 +47,7 @@ Check sizeBy(bool (*parse)(const std::string&, TableSizes*), const char* shape) 
 }
 
 std::string checkMoments(const std::string& text) {
-  MomentSettings ignored;
+  TableSizes ignored;
   std::string error = io::parseMomentSettings(text, &ignored).error;
   if (!error.empty()) error.pop_back();
   return error;

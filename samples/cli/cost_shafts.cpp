@@ -66,10 +66,10 @@ Measured draw(io::Scene scene, const Method& method, const std::string& device, 
   const PictureTarget target = createPictureTarget(&session, scene.width, scene.height);
   std::optional<ShaftsDesc> shafts = describeShafts(choice, session);
   if (shafts) shafts->without = plan.viewWithout;
-  Scenery scenery(&session, scene, files, plan.tables, shafts, plan);
   TableRequest request;
   request.desc = plan.tables;
   const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
+  Scenery scenery(&session, scene, files, ready, shafts, plan);
   Measured measured;
   // The first compiles the shaders.
   Painter painter(&session, scene, nullptr, ready, plan, &scenery);

@@ -53,7 +53,7 @@ io::LinearImage Painter::draw(const io::Scene& scene, const Tables* tables,
   if (scene.stars) {
     if (!stars_) {
       const VkFormat depth = scenery_ != nullptr ? scenery_->depthFormat() : VK_FORMAT_UNDEFINED;
-      stars_.emplace(&gpu_, samples::StarsDesc{session_->context(), kPictureFormat, depth,
+      stars_.emplace(&gpu_, samples::StarsDesc{tables, kPictureFormat, depth,
                                                samples::projectionOf(scene.camera), solver_});
     }
     stars = [&](VkCommandBuffer commands) {

@@ -23,11 +23,11 @@ std::string probeTables(Session* session, const Tables* tables,
     const headless::HostBuffer buffer =
         session->hostBuffer(count * kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     session->run([&](VkCommandBuffer commands) {
-      session->check(recordProbe(session->context(), tables, commands,
+      session->check(recordProbe(tables, commands,
                                  &plain[first], count, buffer.buffer()));
       return "probe";
     });
-    session->check(readProbe(tables, &plain[first], count, buffer.data(), &answers[first]));
+    session->check(answerQueries(tables, &plain[first], count, buffer.data(), &answers[first]));
   }
   return take(io::formatAnswers(queries, answers));
 }

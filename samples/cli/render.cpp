@@ -38,7 +38,7 @@ Plan planPicture(const RenderArguments& arguments, io::Scene scene, const ShaftC
     for (uint32_t i = 0; i < kEffectCount; ++i) {
       const auto effect = static_cast<Effect>(i);
       if ((kTableEffects & effectBit(effect)) == 0) continue;
-      asked.effects[i] = hasEffect(request->desc.without, effect) ? Force::On : Force::Off;
+      asked.effects[i] = hasEffect(request->desc.disabledEffects, effect) ? Force::On : Force::Off;
     }
     asked.tables = request->desc;
     return samples::planRequest(scene, asked);
@@ -95,11 +95,11 @@ void runRender(const RenderArguments& arguments) {
                   bake | (plan.capabilities & (kCapabilitySky | kCapabilityAir)) | shafts.needs(),
                   shafts.wishes());
   const PictureTarget target = createPictureTarget(&session, scene.width, scene.height);
+  const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
   std::optional<Scenery> scenery;
   if (scene.terrain || !scene.balloons.empty()) {
-    scenery.emplace(&session, scene, files, request.desc, shaftsOf(shafts, session, plan), plan);
+    scenery.emplace(&session, scene, files, ready, shaftsOf(shafts, session, plan), plan);
   }
-  const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
   Painter painter(&session, scene, albedo ? &*albedo : nullptr, ready, plan,
                   scenery ? &*scenery : nullptr);
   writePicture(output, scene, painter.draw(scene, ready.tables.get(), target));

@@ -6,14 +6,15 @@ namespace alpenglow::cli {
 namespace {
 
 samples::LandscapeDesc describeLandscape(Session* session, const io::Scene& scene,
-                                         const TableDesc& tables,
+                                         const ReadyTables& tables,
                                          const std::optional<ShaftsDesc>& shafts) {
   samples::LandscapeDesc desc;
   desc.context = session->context();
   desc.size = {scene.width, scene.height};
   desc.colorFormat = kPictureFormat;
-  desc.solver = tables.solver;
-  desc.mie = tables.mie;
+  desc.tables = tables.tables.get();
+  desc.solver = tables.desc.solver;
+  desc.mie = tables.desc.mie;
   desc.shafts = shafts ? &*shafts : nullptr;
   return desc;
 }
@@ -31,7 +32,7 @@ SceneryFiles readScenery(const io::Scene& scene) {
 }
 
 Scenery::Scenery(Session* session, const io::Scene& scene, const SceneryFiles& files,
-                 const TableDesc& tables, const std::optional<ShaftsDesc>& shafts, const Plan& plan)
+                 const ReadyTables& tables, const std::optional<ShaftsDesc>& shafts, const Plan& plan)
     : session_(session),
       gpu_(session->gpu()),
       hasAir_(plan.sceneDepth),

@@ -20,12 +20,11 @@ SceneryFiles readScenery(const io::Scene& scene);
 
 using RecordFn = std::function<void(VkCommandBuffer)>;
 
-/// On the device, before the tables: no bake is lost to what doesn't fit. Destroyed before the
-/// session; the files outlive it.
+/// On the device. Destroyed before the session; the files outlive it.
 class Scenery {
  public:
   Scenery(Session* session, const io::Scene& scene, const SceneryFiles& files,
-          const TableDesc& tables, const std::optional<ShaftsDesc>& shafts, const Plan& plan);
+          const ReadyTables& tables, const std::optional<ShaftsDesc>& shafts, const Plan& plan);
 
   /// Without aerial perspective there is no depth image for the view to read.
   void describe(ViewDesc* view) const;

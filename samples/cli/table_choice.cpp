@@ -42,7 +42,7 @@ TableDesc describeModel(const TableArguments& arguments, const io::Scene& scene)
   }
   TableDesc desc;
   desc.solver = *io::solverOf(scene.model);
-  desc.samples = scene.modelSamples.value_or(0);
+  desc.sizes.stepCount = scene.modelSamples.value_or(0);
   return desc;
 }
 
@@ -63,7 +63,7 @@ TableDesc describeGiven(const TableArguments& arguments, const io::Scene* scene,
   if (chosen.solver == Solver::Moments) {
     if (scene != nullptr) desc.quality = scene->quality.value_or(Quality::Default);
     if (arguments.quality) desc.quality = *io::findQuality(*arguments.quality);
-    if (arguments.moments) check(io::parseMomentSettings(*arguments.moments, &desc.moments));
+    if (arguments.moments) check(io::parseMomentSettings(*arguments.moments, &desc.sizes));
   }
   if (arguments.mie) {
     desc.mie = *arguments.mie == "full" ? MieStorage::Full : MieStorage::Packed;
@@ -116,9 +116,9 @@ void compareMoments(const TableArguments& arguments, const io::Scene* scene,
   compare->either(arguments.quality, scene != nullptr && scene->quality, "quality",
                   io::qualityName(wanted.quality), io::qualityName(file.quality));
   if (!arguments.moments) return;
-  MomentSettings changed = file.moments;
+  TableSizes changed = file.sizes;
   check(io::parseMomentSettings(*arguments.moments, &changed));
-  const std::string holds = io::momentSettingsText(file.moments);
+  const std::string holds = io::momentSettingsText(file.sizes);
   if (io::momentSettingsText(changed) != holds) (*compare)("--moments", *arguments.moments, holds);
 }
 

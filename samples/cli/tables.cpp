@@ -23,29 +23,34 @@ TablesPointer emptyTables(Session* session, const Parameters& parameters, const 
 
 // Of the parts that every table file has.
 TableId idOf(const std::string& part) {
-  static const std::map<std::string, TableId> kIds = {{"optical_depth", TableId::OpticalDepth},
-                                                      {"moments", TableId::Moments},
-                                                      {"source", TableId::Source},
-                                                      {"irradiance", TableId::Irradiance},
-                                                      {"scattering", TableId::Scattering},
-                                                      {"single_mie", TableId::SingleMie}};
+  static const std::map<std::string, TableId> kIds = {{"optical_depth", kTableOpticalDepth},
+                                                      {"moments", kTableMoments},
+                                                      {"source", kTableSource},
+                                                      {"irradiance", kTableIrradiance},
+                                                      {"scattering", kTableScattering},
+                                                      {"single_mie", kTableSingleMie}};
   return kIds.at(part);
 }
 
-TableFormat formatOf(const TableInfo& info) {
+ImageInfo imageOf(const Tables* tables, TableId id) {
+  TablesInfo info;
+  tablesInfo(tables, &info);
+  return info.images[id];
+}
+
+TableFormat formatOf(const ImageInfo& info) {
   return info.format == VK_FORMAT_R32G32B32A32_SFLOAT ? TableFormat::Float : TableFormat::Half;
 }
 
 io::TablePart readTable(Session* session, Tables* tables, TableId id, const std::string& name) {
-  TableInfo info;
-  session->check(tableInfo(tables, id, &info));
+  const ImageInfo info = imageOf(tables, id);
   const headless::HostBuffer buffer =
       session->hostBuffer(info.bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
   session->run([&](VkCommandBuffer commands) {
     session->check(recordTableReadback(tables, commands, id, buffer.buffer(), 0));
     return "readback";
   });
-  io::TablePart part{name, info.width, info.height, info.depth, formatOf(info), {}};
+  io::TablePart part{name, info.extent.width, info.extent.height, info.extent.depth, formatOf(info), {}};
   part.texels.resize(info.bytes);
   std::memcpy(part.texels.data(), buffer.data(), info.bytes);
   return part;
@@ -56,11 +61,11 @@ struct OrderTable {
   TableId id;
   const char* part;
 };
-constexpr OrderTable kOrderTables[] = {{"N ", TableId::OrderMoments, "moments"},
-                                       {"J ", TableId::OrderSource, "source"},
-                                       {"dS ", TableId::OrderScattering, "scattering"},
-                                       {"dS ", TableId::OrderSingleMie, "single_mie"},
-                                       {"dS ", TableId::OrderIrradiance, "irradiance"}};
+constexpr OrderTable kOrderTables[] = {{"N ", kTableOrderMoments, "moments"},
+                                       {"J ", kTableOrderSource, "source"},
+                                       {"dS ", kTableOrderScattering, "scattering"},
+                                       {"dS ", kTableOrderSingleMie, "single_mie"},
+                                       {"dS ", kTableOrderIrradiance, "irradiance"}};
 
 // Appends the tables of single orders that the pass has finished.
 void keepOrder(Session* session, Tables* tables, const BakeProgress& progress,
@@ -68,7 +73,7 @@ void keepOrder(Session* session, Tables* tables, const BakeProgress& progress,
   if (!progress.passFinished || progress.order == 0) return;
   for (const OrderTable& table : kOrderTables) {
     const bool finished = std::string(progress.pass).rfind(table.pass, 0) == 0;
-    const bool exists = table.id != TableId::OrderSingleMie || progress.order == 1;
+    const bool exists = table.id != kTableOrderSingleMie || progress.order == 1;
     if (!finished || !exists) continue;
     const std::string name = table.part + ("_order_" + std::to_string(progress.order));
     kept->push_back(readTable(session, tables, table.id, name));
@@ -87,8 +92,7 @@ TablesPointer uploadTables(Session* session, const Parameters& parameters, io::T
   TablesPointer tables = emptyTables(session, parameters, file.desc);
   for (io::TablePart& part : file.parts) {
     const TableId id = idOf(part.name);
-    TableInfo info;
-    session->check(tableInfo(tables.get(), id, &info));
+    const ImageInfo info = imageOf(tables.get(), id);
     io::convertTexels(&part, formatOf(info));  // Devices differ in which tables are float.
     const headless::HostBuffer buffer =
         session->hostBuffer(part.texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);

@@ -12,7 +12,7 @@ namespace {
 
 // Options and solver are the same for all of a walk, so that only these follow the air.
 bool sameShape(const TableDesc& a, const TableDesc& b) {
-  return samples::same(a.moments, b.moments);
+  return samples::same(a.sizes, b.sizes);
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ void WalkFrames::usePainter(const io::Scene& scene) {
   const Plan plan = planOf(scene);
   if ((scene.terrain || !scene.balloons.empty()) && projection_ != projection) {
     scenery_.reset();
-    scenery_.emplace(parts_.session, scene, *parts_.files, ready_->desc, parts_.shafts, plan);
+    scenery_.emplace(parts_.session, scene, *parts_.files, *ready_, parts_.shafts, plan);
   }
   projection_ = projection;
   painter_.emplace(parts_.session, scene, parts_.albedo, *ready_, plan,

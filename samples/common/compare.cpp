@@ -1,8 +1,10 @@
 #include "compare.h"
 
 #include <algorithm>
+#include <cstring>
 #include <iterator>
 #include <tuple>
+#include <type_traits>
 
 namespace alpenglow::samples {
 namespace {
@@ -26,11 +28,6 @@ auto tied(const VkRect2D& r) {
   return std::tie(r.offset.x, r.offset.y, r.extent.width, r.extent.height);
 }
 
-auto tied(const MomentSettings& m) {
-  return std::tie(m.depthMu, m.depthH, m.nodesR, m.nodesMuS, m.ringsSky, m.ringsLimb, m.ringsGround,
-                  m.azimuths, m.degree, m.sourceGamma, m.sourcePsi, m.solverPanels, m.viewPanels);
-}
-
 }  // namespace
 
 bool same(const SkyDraw& a, const SkyDraw& b) {
@@ -39,6 +36,9 @@ bool same(const SkyDraw& a, const SkyDraw& b) {
          a.depth.far_m == b.depth.far_m;
 }
 
-bool same(const MomentSettings& a, const MomentSettings& b) { return tied(a) == tied(b); }
+bool same(const TableSizes& a, const TableSizes& b) {
+  static_assert(std::has_unique_object_representations_v<TableSizes>);
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
 
 }  // namespace alpenglow::samples

@@ -6,6 +6,6 @@
 namespace alpenglow::samples {
 
 bool same(const SkyDraw& a, const SkyDraw& b);
-bool same(const MomentSettings& a, const MomentSettings& b);
+bool same(const TableSizes& a, const TableSizes& b);
 
 }  // namespace alpenglow::samples

@@ -156,7 +156,7 @@ TableDesc tablesOf(const io::Scene& scene) {
   desc.orders = scene.orders.value_or(scene.model == io::SceneModel::Single ? 1 : 0);
   if (const std::optional<Solver> model = io::solverOf(scene.model)) {
     desc.solver = *model;
-    desc.samples = scene.modelSamples.value_or(0);
+    desc.sizes.stepCount = scene.modelSamples.value_or(0);
   }
   if (desc.solver == Solver::Moments) desc.quality = scene.quality.value_or(Quality::Default);
   return desc;

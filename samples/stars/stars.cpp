@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "terrain/tables_info.h"
+
 namespace alpenglow::samples {
 namespace {
 
@@ -93,7 +95,7 @@ Stars::Stars(const Gpu* gpu, const StarsDesc& desc) : gpu_(gpu), projection_(des
   count_ = static_cast<uint32_t>(vertices.size());
   vertices_ = gpu->buffer(vertices.size() * sizeof vertices[0], VK_BUFFER_USAGE_VERTEX_BUFFER_BIT,
                           vertices.data());
-  const VkDescriptorSetLayout set = tableSetLayout(desc.context);
+  const VkDescriptorSetLayout set = infoOf(desc.tables).setLayout;
   layout_ = gpu->pipelineLayout({&set, 1}, kPush);
   PipelineDesc pipeline;
   pipeline.vertex = shaders::kSampleStarsVertex;
@@ -118,7 +120,7 @@ void Stars::record(VkCommandBuffer commands, const Parameters& parameters, const
                                narrow(area.extent.height),
                                0.0f,
                                1.0f};
-  const VkDescriptorSet set = tableSet(tables);
+  const VkDescriptorSet set = infoOf(tables).set;
   const VkBuffer vertices = vertices_.buffer();
   const VkDeviceSize offset = 0;
   const StarView view = starView(parameters, projection_, draw, siderealHours);

@@ -30,7 +30,7 @@ double shareOfSun(const Star& star);
 void starDirection(const Star& star, double siderealHours, double direction[3]);
 
 struct StarsDesc {
-  Context* context = nullptr;
+  const Tables* tables = nullptr;  ///< On the context of those that it will draw with.
   VkFormat colorFormat = VK_FORMAT_UNDEFINED;
   /// With depth (reversed, 0 infinitely far), only pixels without anything in them get light.
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;

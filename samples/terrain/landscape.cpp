@@ -84,7 +84,7 @@ Landscape::Landscape(const Gpu* gpu, const io::Scene& scene, const TerrainMesh* 
     if (desc.shafts != nullptr) makeShafts(desc);
   }
   LandscapePipelinesDesc pipelines;
-  pipelines.context = desc.context;
+  pipelines.tables = desc.tables;
   pipelines.colorFormat = desc.colorFormat;
   pipelines.solver = desc.solver;
   pipelines.mie = desc.mie;

@@ -25,6 +25,7 @@ namespace alpenglow::samples {
 
 struct LandscapeDesc {
   Context* context = nullptr;
+  const Tables* tables = nullptr;  ///< On the same context as those that will be drawn with.
   VkExtent2D size = {};  ///< Of the picture, in pixels.
   VkFormat colorFormat = VK_FORMAT_UNDEFINED;
   Solver solver = Solver::Moments;     ///< As the tables that will be drawn with.

@@ -17,6 +17,7 @@
 #include <alpenglow/shaders/sample_terrain_standard.h>
 #include <alpenglow/shaders/sample_terrain_vertex.h>
 
+#include "tables_info.h"
 #include "terrain_mesh.h"
 
 namespace alpenglow::samples {
@@ -123,7 +124,7 @@ void LandscapePipelines::makeSets(const LandscapePipelinesDesc& desc) {
     write(*gpu_, albedoSet_, kAlbedoBinding.descriptorType, nullptr, &image);
   }
   const VkDescriptorSetLayout sets[] = {
-      tableSetLayout(desc.context), frameLayout_.get(), albedoLayout_.get(),
+      infoOf(desc.tables).setLayout, frameLayout_.get(), albedoLayout_.get(),
       shafts_ != nullptr ? shaftSetLayout(shafts_) : VK_NULL_HANDLE};
   layout_ = gpu_->pipelineLayout({sets, shafts_ != nullptr ? size_t{4} : size_t{3}}, kPush);
 }
@@ -168,7 +169,7 @@ void LandscapePipelines::bind(VkCommandBuffer commands, VkPipeline pipeline,
   };
   gpu_->function<PFN_vkCmdBindPipeline>("vkCmdBindPipeline")(
       commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-  bindSet(0, tables != nullptr ? tableSet(tables) : VK_NULL_HANDLE);
+  bindSet(0, infoOf(tables).set);
   bindSet(1, frameSet_);
   bindSet(2, albedoSet_);
   bindSet(3, shafts_ != nullptr && tables != nullptr ? shaftSet(shafts_) : VK_NULL_HANDLE);

@@ -19,7 +19,7 @@ struct FrameBlock {
 };
 
 struct LandscapePipelinesDesc {
-  Context* context = nullptr;
+  const Tables* tables = nullptr;  ///< On the context of those that will be drawn with.
   VkFormat colorFormat = VK_FORMAT_UNDEFINED;
   Solver solver = Solver::Moments;                 ///< As the tables that will be drawn with.
   MieStorage mie = MieStorage::Full;               ///< The same.

@@ -123,7 +123,7 @@ App::App(AppOptions options)
       timer_(&*host_.gpu),
       stage_(&*host_.gpu, host_.context, picture_.target().extent()),
       baker_(&*host_.gpu, host_.context),
-      panel_(&*host_.gpu, host_.context, host_.presenter->renderPass()) {
+      panel_(&*host_.gpu, host_.presenter->renderPass()) {
   if (!options_.script.empty()) script_.emplace(options_.script, options_.config.bindings);
   state_.scene = state_.start = options_.scene;
   state_.panel = options_.config.panel;

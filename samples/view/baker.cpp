@@ -12,9 +12,9 @@ constexpr int kMostPieces = 24;  // In a frame.
 
 // Whether tables of one description serve where the other is wanted, but for the quality.
 bool sameTables(const TableDesc& a, const TableDesc& b) {
-  return a.solver == b.solver && a.orders == b.orders && a.without == b.without &&
+  return a.solver == b.solver && a.orders == b.orders && a.disabledEffects == b.disabledEffects &&
          a.sunZenithFrom == b.sunZenithFrom && a.sunZenithTo == b.sunZenithTo &&
-         a.samples == b.samples && a.mie == b.mie;
+         a.sizes.stepCount == b.sizes.stepCount && a.mie == b.mie;
 }
 
 bool hasDraft(const TableDesc& desc) {
@@ -23,7 +23,7 @@ bool hasDraft(const TableDesc& desc) {
 
 TableDesc draftOf(TableDesc desc) {
   desc.quality = Quality::Draft;
-  desc.moments = {};
+  desc.sizes = {};
   return desc;
 }
 

@@ -206,8 +206,8 @@ void showCaption(const std::string& caption) {
 
 }  // namespace
 
-Panel::Panel(const samples::Gpu* gpu, Context* context, VkRenderPass renderPass)
-    : tables_(std::make_unique<TablePictures>(gpu, context, renderPass)) {}
+Panel::Panel(const samples::Gpu* gpu, VkRenderPass renderPass)
+    : tables_(std::make_unique<TablePictures>(gpu, renderPass)) {}
 Panel::~Panel() = default;
 
 void Panel::make(State* state, const PanelFacts& facts) {

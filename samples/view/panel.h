@@ -32,7 +32,7 @@ class TablePictures;
 class Panel {
  public:
   /// All outlive it. Throws.
-  Panel(const samples::Gpu* gpu, Context* context, VkRenderPass renderPass);
+  Panel(const samples::Gpu* gpu, VkRenderPass renderPass);
   ~Panel();
 
   /// Between Interface::begin() and end().

@@ -75,6 +75,7 @@ Stage::Key Stage::keyOf(const io::Scene& scene, const Air& air) const {
 void Stage::makeLandscape(const io::Scene& scene, const Key& key, const Air& air) {
   samples::LandscapeDesc desc;
   desc.context = context_;
+  desc.tables = air.tables.get();
   desc.size = size_;
   desc.colorFormat = kRadianceFormat;
   desc.solver = key.solver;
@@ -122,7 +123,7 @@ void Stage::prepare(const io::Scene& scene, const Air& air) {
   if (landscape_) landscape_->follow(air.parameters);
   makeView(key, air);
   if (key.solver == Solver::Moments || key.solver == Solver::Standard) {
-    stars_.emplace(gpu_, samples::StarsDesc{context_, kRadianceFormat,
+    stars_.emplace(gpu_, samples::StarsDesc{air.tables.get(), kRadianceFormat,
                                             mesh_ ? samples::kDepthFormat : VK_FORMAT_UNDEFINED,
                                             key.projection, key.solver});
   }

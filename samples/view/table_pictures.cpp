@@ -13,6 +13,7 @@
 
 #include "interface.h"
 #include "picture.h"
+#include "terrain/tables_info.h"
 #include "widgets.h"
 
 namespace alpenglow::view {
@@ -27,15 +28,12 @@ samples::Code codeOf(uint32_t binding, bool volume) {
 
 }  // namespace
 
-TablePictures::TablePictures(const samples::Gpu* gpu, Context* context, VkRenderPass renderPass)
-    : gpu_(gpu), renderPass_(renderPass), vk_(*gpu) {
-  const VkDescriptorSetLayout set = tableSetLayout(context);
-  layout_ = gpu->pipelineLayout({&set, 1}, {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(Push)});
-}
+TablePictures::TablePictures(const samples::Gpu* gpu, VkRenderPass renderPass)
+    : gpu_(gpu), renderPass_(renderPass), vk_(*gpu) {}
 
 std::vector<TablePictures::Shown> TablePictures::tablesOf(const TableDesc& desc) {
   std::vector<Shown> all;
-  const auto without = [&](Effect effect) { return !hasEffect(desc.without, effect); };
+  const auto without = [&](Effect effect) { return !hasEffect(desc.disabledEffects, effect); };
   switch (desc.solver) {
     case Solver::Moments:
       all.push_back({"optical depth", "mu, r", 1, false, {0.0f, 16.0f, false}});
@@ -93,6 +91,11 @@ void TablePictures::make(const Tables* tables, const TableDesc& desc) {
     ImGui::TextWrapped("This model has no table.");
     return;
   }
+  const TablesInfo info = samples::infoOf(tables);
+  if (layout_.get() == VK_NULL_HANDLE) {
+    layout_ = gpu_->pipelineLayout({&info.setLayout, 1},
+                                   {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(Push)});
+  }
   chosen_ = std::min(chosen_, all.size() - 1);
   list(
       "table", all[chosen_].name, all.size(), chosen_, [&](size_t i) { return all[i].name; },
@@ -113,7 +116,7 @@ void TablePictures::make(const Tables* tables, const TableDesc& desc) {
   const ImVec2 pixels = ImGui::GetIO().DisplayFramebufferScale;
   const Push push = {{at.x * pixels.x, at.y * pixels.y, width * pixels.x, height * pixels.y},
                      {std::min(layer_, 0.9999f), look.from, look.to, look.logarithm ? 1.0f : 0.0f}};
-  draws_.push_back({this, pipelineFor(shown), tableSet(tables), push});
+  draws_.push_back({this, pipelineFor(shown), info.set, push});
   ImDrawList* drawing = ImGui::GetWindowDrawList();
   drawing->AddCallback(draw, &draws_.back());
   drawing->AddCallback(ImDrawCallback_ResetRenderState, nullptr);

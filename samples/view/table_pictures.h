@@ -18,7 +18,7 @@ namespace alpenglow::view {
 class TablePictures {
  public:
   /// All outlive it. Throws.
-  TablePictures(const samples::Gpu* gpu, Context* context, VkRenderPass renderPass);
+  TablePictures(const samples::Gpu* gpu, VkRenderPass renderPass);
 
   /// A choice of table, layer and brightness, and the picture, at the cursor of the panel. Throws.
   void make(const Tables* tables, const TableDesc& desc);
@@ -29,7 +29,7 @@ class TablePictures {
     float from, to;
     bool logarithm;
   };
-  /// A binding of tableSet(), as alpenglow/*_tables.glsl declare them.
+  /// A binding of TablesInfo::set, as alpenglow/*_tables.glsl declare them.
   struct Shown {
     const char* name;
     const char* axes;

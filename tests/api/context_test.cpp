@@ -104,7 +104,7 @@ TEST_F(StandardSkyTest, ASkyContextTakesUploadsButDoesNotBake) {
   const headless::HostBuffer answers =
       device().createHostBuffer(kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, nullptr);
   run([&](VkCommandBuffer commands) {
-    EXPECT_EQ(recordProbe(made, empty, commands, &query, 1, answers.buffer()),
+    EXPECT_EQ(recordProbe(empty, commands, &query, 1, answers.buffer()),
               Status::Unsupported);
     return true;
   });
@@ -176,7 +176,7 @@ TEST_F(StandardSkyTest, TableAndProbeArgumentsAreChecked) {
   run([&](VkCommandBuffer commands) {
     const auto refuses = [&](const ProbeQuery& query, const char* part) {
       const ProbeQuery queries[] = {ProbeQuery{}, query};
-      EXPECT_EQ(recordProbe(context(), baked, commands, queries, 2, answers.buffer()),
+      EXPECT_EQ(recordProbe(baked, commands, queries, 2, answers.buffer()),
                 Status::InvalidArgument)
           << part;
       EXPECT_TRUE(contains(message(), "ProbeQuery 1") && contains(message(), part)) << message();
@@ -185,39 +185,62 @@ TEST_F(StandardSkyTest, TableAndProbeArgumentsAreChecked) {
     query.altitude_m = -3.0;
     refuses(query, "altitude_m = -3");
     query = {};
-    query.viewZenith = 4.0;
-    refuses(query, "viewZenith = 4");
+    query.zenith = 4.0;
+    refuses(query, "zenith = 4");
     query = {};
     query.sunZenith = -0.5;
     refuses(query, "sunZenith = -0.5");
-    query.irradiance = true;
+    query.kind = QueryKind::Irradiance;
     refuses(query, "sunZenith = -0.5");
     query = {};
     query.azimuth = std::numeric_limits<double>::infinity();
     refuses(query, "azimuth = inf");
     query = {};
+    query.bounded = true;
     query.distance_m = std::numeric_limits<double>::quiet_NaN();
     refuses(query, "distance_m = ");
+    query.distance_m = -1.0;
+    refuses(query, "distance_m = -1");
+    query.bounded = false;
+    query.distance_m = 100.0;
+    refuses(query, "distance_m = 100");
+    query = {};
+    query.light = 1;
+    refuses(query, "light = 1");
+    query = {};
+    query.kind = static_cast<QueryKind>(2);
+    refuses(query, "kind = 2");
+    query = {};
+    query.kind = QueryKind::Irradiance;
+    query.zenith = 0.5;
+    refuses(query, "zenith = 0.5");
+    query.zenith = 0.0;
+    query.azimuth = 0.25;
+    refuses(query, "azimuth = 0.25");
+    query.azimuth = 0.0;
+    query.bounded = true;
+    refuses(query, "bounded = 1");
     const ProbeQuery good;
-    EXPECT_EQ(recordProbe(context(), baked, commands, &good, 0, answers.buffer()),
+    EXPECT_EQ(recordProbe(baked, commands, &good, 0, answers.buffer()),
               Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(context(), baked, commands, nullptr, 1, answers.buffer()),
+    EXPECT_EQ(recordProbe(baked, commands, nullptr, 1, answers.buffer()),
               Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(context(), baked, commands, &good, 1, VK_NULL_HANDLE),
+    EXPECT_EQ(recordProbe(baked, commands, &good, 1, VK_NULL_HANDLE),
               Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(nullptr, baked, commands, &good, 1, answers.buffer()),
-              Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(context(), nullptr, commands, &good, 1, answers.buffer()),
+    EXPECT_EQ(recordProbe(nullptr, commands, &good, 1, answers.buffer()),
               Status::InvalidArgument);
     return true;
   });
   resourceReport(context(), &after);
   EXPECT_EQ(after.dispatches, before.dispatches);
   EXPECT_EQ(after.bytes, before.bytes);
-  EXPECT_EQ(readProbe(baked, nullptr, 1, answers.data(), nullptr), Status::InvalidArgument);
-  EXPECT_FALSE(tablesReady(nullptr));
-  EXPECT_EQ(tableSet(nullptr), VkDescriptorSet{VK_NULL_HANDLE});
-  EXPECT_EQ(tableSetLayout(nullptr), VkDescriptorSetLayout{VK_NULL_HANDLE});
+  EXPECT_EQ(answerQueries(baked, nullptr, 1, answers.data(), nullptr), Status::InvalidArgument);
+  TablesInfo info;
+  EXPECT_EQ(tablesInfo(nullptr, &info), Status::InvalidArgument);
+  EXPECT_EQ(info.state, TablesState::Empty);
+  message().clear();
+  EXPECT_EQ(tablesInfo(baked, nullptr), Status::InvalidArgument);
+  EXPECT_TRUE(contains(message(), "tablesInfo got a null argument")) << message();
 }
 
 // Two contexts on one device, several atmospheres on each, their slices interleaved in the same
@@ -226,7 +249,7 @@ TEST_F(StandardSkyTest, ContextsAndAtmospheresDoNotMix) {
   const char* const names[] = {"earth", "mars", "earth-hazy"};
   ProbeQuery query;
   query.altitude_m = 1000.0;
-  query.viewZenith = 1.3;
+  query.zenith = 1.3;
   query.sunZenith = 1.0;
   query.azimuth = 0.5;
   std::vector<double> alone;
@@ -255,7 +278,7 @@ TEST_F(StandardSkyTest, ContextsAndAtmospheresDoNotMix) {
     });
   }
   for (size_t i = 0; i < 6; ++i) {
-    const auto answers = probe(device(), contexts[i % 2], baked[i], {query});
+    const auto answers = probe(device(), baked[i], {query});
     EXPECT_EQ(answers.at(0).skyRadiance[2], alone[i % 3]) << i;
     destroyTables(baked[i]);
   }

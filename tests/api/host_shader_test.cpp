@@ -168,15 +168,15 @@ class HostCompute {
 
 /// The same ray for the host: its vertical is z, the sun lies in the x-z plane.
 Question questionOf(const ProbeQuery& q) {
-  const double s = std::sin(q.viewZenith), t = std::sin(q.sunZenith);
+  const double s = std::sin(q.zenith), t = std::sin(q.sunZenith);
   const auto f = [](double value) { return static_cast<float>(value); };
   Question question = {};
   question.upAltitude[2] = 1.0f;
   question.upAltitude[3] = f(q.altitude_m);
   question.viewDistance[0] = f(s * std::cos(q.azimuth));
   question.viewDistance[1] = f(s * std::sin(q.azimuth));
-  question.viewDistance[2] = f(std::cos(q.viewZenith));
-  question.viewDistance[3] = q.distance_m < 0.0 ? 1e9f : f(q.distance_m);
+  question.viewDistance[2] = f(std::cos(q.zenith));
+  question.viewDistance[3] = q.bounded ? f(q.distance_m) : 1e9f;
   question.sun[0] = f(t);
   question.sun[2] = f(std::cos(q.sunZenith));
   return question;
@@ -197,12 +197,15 @@ void HostShaderTest::expectTheSame(double absolute) {
         for (const double distance : {-1.0, 1000.0, 3e5}) {
           ProbeQuery query;
           query.altitude_m = altitude;
-          query.viewZenith = viewZenith;
+          query.zenith = viewZenith;
           query.sunZenith = sunZenith;
           query.azimuth = 0.6;
-          query.distance_m = distance;
+          query.bounded = distance >= 0.0;
+          query.distance_m = std::max(distance, 0.0);
           rays.push_back(query);
-          query.irradiance = true;
+          query = {};
+          query.kind = QueryKind::Irradiance;
+          query.sunZenith = sunZenith;
           query.altitude_m = std::min(altitude, 59999.0);
           surfaces.push_back(query);
         }
@@ -214,18 +217,18 @@ void HostShaderTest::expectTheSame(double absolute) {
     questions.push_back(questionOf(rays[i]));
     below.push_back(questionOf(surfaces[i]));
   }
-  HostCompute host(device(), tableSetLayout(context()), solver());
-  const std::vector<Answer> got = host.ask(questions, tableSet(tables()));
-  const std::vector<Answer> light = host.ask(below, tableSet(tables()));
+  HostCompute host(device(), infoOf(tables()).setLayout, solver());
+  const std::vector<Answer> got = host.ask(questions, infoOf(tables()).set);
+  const std::vector<Answer> light = host.ask(below, infoOf(tables()).set);
   const std::vector<ProbeAnswer> wanted = probeAll(rays);
   const std::vector<ProbeAnswer> wantedLight = probeAll(surfaces);
   for (size_t i = 0; i < rays.size(); ++i) {
-    const bool whole = rays[i].distance_m < 0.0;
+    const bool whole = !rays[i].bounded;
     for (uint32_t c = 0; c < kSpectrumSize; ++c) {
       const auto near = [&](double value, double reference, const char* what) {
         EXPECT_NEAR(value, reference, 1e-3 * reference + absolute)
             << what << " " << c << ": altitude " << rays[i].altitude_m << ", view "
-            << rays[i].viewZenith << ", sun " << rays[i].sunZenith << ", distance "
+            << rays[i].zenith << ", sun " << rays[i].sunZenith << ", distance "
             << rays[i].distance_m;
       };
       if (whole) near(got[i].whole[c], wanted[i].skyRadiance[c], "whole");
@@ -245,7 +248,7 @@ void HostShaderTest::expectTheSame(double absolute) {
 // ground and rays that would meet it behind. Its haze has no stripe there.
 TEST_F(SkyTest, AnObjectAcrossTheHorizonHasNoStripe) {
   constexpr size_t kRays = 201;
-  HostCompute host(device(), tableSetLayout(context()), Solver::Moments);
+  HostCompute host(device(), infoOf(tables()).setLayout, Solver::Moments);
   const Parameters earth = preset("earth");
   Steps light, dimming;
   for (const auto& [altitude, distance] :
@@ -257,13 +260,14 @@ TEST_F(SkyTest, AnObjectAcrossTheHorizonHasNoStripe) {
         for (size_t i = 0; i < kRays; ++i) {
           ProbeQuery query;
           query.altitude_m = altitude;
-          query.viewZenith = 0.5 * kPi + dip * (1.0 + 0.2 * (double(i) - 100.3) / 100.0);
+          query.zenith = 0.5 * kPi + dip * (1.0 + 0.2 * (double(i) - 100.3) / 100.0);
           query.sunZenith = sunZenith;
           query.azimuth = azimuth;
+          query.bounded = true;
           query.distance_m = distance;
           column.push_back(questionOf(query));
         }
-        const std::vector<Answer> got = host.ask(column, tableSet(tables()));
+        const std::vector<Answer> got = host.ask(column, infoOf(tables()).set);
         for (uint32_t c = 0; c < kSpectrumSize; ++c) {
           light.add(stepsOf(kRays, 1e-12, [&](size_t i) { return double(got[i].toPoint[c]); }));
           dimming.add(

@@ -107,12 +107,12 @@ TEST_F(StandardSkyTest, UploadedTablesDrawTheSameBytes) {
     Tables* const baked = tables("earth", mie);
     Tables* uploaded = nullptr;
     ASSERT_EQ(createTables(made, preset("earth"), smallTables(mie), &uploaded), Status::Ok);
-    std::vector<TableId> ids = {TableId::OpticalDepth, TableId::Irradiance, TableId::Scattering};
-    if (mie == MieStorage::Full) ids.push_back(TableId::SingleMie);
+    std::vector<TableId> ids = {kTableOpticalDepth, kTableIrradiance, kTableScattering};
+    if (mie == MieStorage::Full) ids.push_back(kTableSingleMie);
     for (const TableId id : ids) {
-      EXPECT_FALSE(tablesReady(uploaded));
-      TableInfo info;
-      ASSERT_EQ(tableInfo(baked, id, &info), Status::Ok);
+      EXPECT_FALSE(ready(uploaded));
+      const ImageInfo info = imageOf(baked, id);
+      ASSERT_NE(info.name, nullptr);
       const headless::HostBuffer bytes = device().createHostBuffer(
           info.bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT, nullptr);
       run([&](VkCommandBuffer commands) {
@@ -123,7 +123,7 @@ TEST_F(StandardSkyTest, UploadedTablesDrawTheSameBytes) {
                Status::Ok;
       });
     }
-    EXPECT_TRUE(tablesReady(uploaded));
+    EXPECT_TRUE(ready(uploaded));
     ViewDesc viewDesc;
     viewDesc.solver = Solver::Standard;
     viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;

@@ -11,12 +11,6 @@
 namespace alpenglow::testing {
 namespace {
 
-/// Readbacks of finished tables.
-struct Copies {
-  std::vector<uint8_t> opticalDepth, moments, source;
-  TableReadbacks pointers() const { return {opticalDepth.data(), moments.data(), source.data()}; }
-};
-
 /// Relative to the device's answer, or to a floor far below a starlit night.
 struct Errors {
   std::vector<double> values;
@@ -54,32 +48,30 @@ class QueryTest : public StandardSkyTest {
     StandardSkyTest::TearDown();
   }
 
-  std::vector<uint8_t> read(Tables* tables, TableId id) {
-    TableInfo info;
-    EXPECT_EQ(tableInfo(tables, id, &info), Status::Ok) << message();
-    std::string error;
-    const headless::HostBuffer buffer =
-        device().createHostBuffer(info.bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, &error);
-    EXPECT_TRUE(device().run(
-        [&](VkCommandBuffer commands) {
-          return recordTableReadback(tables, commands, id, buffer.buffer(), 0) == Status::Ok;
-        },
-        &error))
-        << error << message();
-    const auto* bytes = static_cast<const uint8_t*>(buffer.data());
-    return {bytes, bytes + info.bytes};
+  /// Baked, and the host copies have arrived.
+  Tables* bake(const char* name, const TableDesc& desc) {
+    Tables* tables = make(name, desc);
+    bakeAll(device(), tables);
+    finishFrames();
+    return tables;
   }
-  Copies readAll(Tables* tables) {
-    return {read(tables, TableId::OpticalDepth), read(tables, TableId::Moments),
-            read(tables, TableId::Source)};
+  void finishFrames() {
+    const uint64_t next = device().skipFrame();
+    EXPECT_EQ(advanceFrame(context(), next, next - 1), Status::Ok) << message();
+  }
+  uint64_t buffers() {
+    ResourceReport report;
+    resourceReport(context(), &report);
+    return report.buffers;
   }
 
  private:
   std::vector<Tables*> made_;
 };
 
-TableDesc smallMoments(TableFormat format) {
+TableDesc smallMoments(TableFormat format, CpuQueries cpuQueries = CpuQueries::All) {
   TableDesc desc;
+  desc.cpuQueries = cpuQueries;
   desc.format = format;
   desc.quality = Quality::Draft;
   return desc;
@@ -94,17 +86,22 @@ std::vector<ProbeQuery> randomQueries(uint32_t count) {
   std::vector<ProbeQuery> queries(count);
   for (uint32_t i = 0; i < count; ++i) {
     ProbeQuery& q = queries[i];
-    q.irradiance = i % 6 == 0;
+    q.kind = i % 6 == 0 ? QueryKind::Irradiance : QueryKind::Ray;
     q.altitude_m = i % 7 == 0   ? 0.0
                    : i % 7 == 1 ? std::exp(uniform(std::log(7e4), std::log(4e7)))
                                 : std::exp(uniform(std::log(2.0), std::log(6e4)));
     const double dip = std::acos(6360e3 / (6360e3 + q.altitude_m));
-    q.viewZenith = q.altitude_m > 6e4 ? kPi - (kPi / 2.0 - dip) * uniform(0.0, 1.02)
+    q.zenith = q.altitude_m > 6e4 ? kPi - (kPi / 2.0 - dip) * uniform(0.0, 1.02)
                    : i % 5 == 0       ? kPi / 2.0 + dip + uniform(-0.02, 0.02)
                                       : uniform(0.0, kPi);
     q.sunZenith = radians(uniform(0.0, 105.0));
     q.azimuth = uniform(-kPi, kPi);
-    if (i % 4 == 2) q.distance_m = std::exp(uniform(std::log(10.0), std::log(3e5)));
+    q.bounded = i % 4 == 2;
+    if (q.bounded) q.distance_m = std::exp(uniform(std::log(10.0), std::log(3e5)));
+    if (q.kind == QueryKind::Irradiance) {
+      q.bounded = false;
+      q.zenith = q.azimuth = q.distance_m = 0.0;
+    }
   }
   return queries;
 }
@@ -113,18 +110,15 @@ TEST_F(QueryTest, TheCpuAnswersWhatTheDeviceAnswers) {
   const std::vector<ProbeQuery> queries = randomQueries(600);
   for (const char* name : {"earth", "earth-hazy", "mars"}) {
     for (TableFormat format : {TableFormat::Half, TableFormat::Float}) {
-      Tables* tables = make(name, smallMoments(format));
-      bakeAll(device(), tables);
-      const Copies copies = readAll(tables);
+      Tables* tables = bake(name, smallMoments(format));
       const std::vector<ProbeAnswer> device = probeAll(queries, tables);
       std::vector<ProbeAnswer> cpu(queries.size());
-      ASSERT_EQ(answerQueries(tables, copies.pointers(), queries.data(), 600, cpu.data()),
-                Status::Ok)
+      ASSERT_EQ(answerQueries(tables, queries.data(), 600, nullptr, cpu.data()), Status::Ok)
           << message();
       Errors transmittance, sky, ground, direct, irradiance;
       for (size_t i = 0; i < queries.size(); ++i) {
         ASSERT_EQ(cpu[i].hitsGround, device[i].hitsGround) << i;
-        if (queries[i].irradiance) {
+        if (queries[i].kind == QueryKind::Irradiance) {
           direct.add(device[i].direct, cpu[i].direct, 1e-6);
           irradiance.add(device[i].sky, cpu[i].sky, 1e-12);
         } else {
@@ -150,39 +144,35 @@ TEST_F(QueryTest, NotReadyUntilTheTablesAndTheirCopiesAre) {
   const std::vector<ProbeQuery> queries = randomQueries(12);
   std::vector<ProbeAnswer> answers(queries.size());
   Tables* tables = make("earth", smallMoments(TableFormat::Half));
-  const auto ask = [&](const TableReadbacks& copies) {
+  const auto ask = [&] {
     message().clear();
     answers[0].sky[0] = 7.0;
-    return answerQueries(tables, copies, queries.data(), 12, answers.data());
+    return answerQueries(tables, queries.data(), 12, nullptr, answers.data());
   };
-  const uint8_t some[16] = {};
-  EXPECT_EQ(ask({some, some, some}), Status::NotReady);
-  EXPECT_NE(message().find("not baked"), std::string::npos) << message();
+  EXPECT_EQ(ask(), Status::NotReady);
+  EXPECT_EQ(message(), "");
+  EXPECT_EQ(infoOf(tables).state, TablesState::Empty);
   bakeAll(device(), tables);
-  const Copies copies = readAll(tables);
-  const TableReadbacks all = copies.pointers();
-  EXPECT_EQ(ask({nullptr, all.moments, all.source}), Status::NotReady);
-  EXPECT_NE(message().find("TableId::OpticalDepth"), std::string::npos) << message();
-  EXPECT_EQ(ask({all.opticalDepth, nullptr, all.source}), Status::NotReady);
-  EXPECT_NE(message().find("TableId::Moments"), std::string::npos) << message();
-  EXPECT_EQ(ask({all.opticalDepth, all.moments, nullptr}), Status::NotReady);
-  EXPECT_NE(message().find("TableId::Source"), std::string::npos) << message();
+  EXPECT_EQ(infoOf(tables).state, TablesState::Recorded);
+  EXPECT_EQ(ask(), Status::NotReady);
+  EXPECT_EQ(message(), "");
   EXPECT_EQ(answers[0].sky[0], 7.0) << "A failed call has written answers.";
-  EXPECT_EQ(ask(all), Status::Ok) << message();
+  finishFrames();
+  EXPECT_EQ(infoOf(tables).state, TablesState::Complete);
+  EXPECT_EQ(ask(), Status::Ok) << message();
   EXPECT_NE(answers[0].sky[0], 7.0);
 }
 
-TEST_F(QueryTest, WithoutSkyRadianceNoSourceIsNeeded) {
+TEST_F(QueryTest, LightIsAllButTheSkyRadianceOfRays) {
   const std::vector<ProbeQuery> queries = randomQueries(60);
   std::vector<ProbeAnswer> whole(queries.size()), light(queries.size());
-  Tables* tables = make("earth", smallMoments(TableFormat::Half));
-  bakeAll(device(), tables);
-  const Copies copies = readAll(tables);
-  TableReadbacks given = copies.pointers();
-  ASSERT_EQ(answerQueries(tables, given, queries.data(), 60, whole.data()), Status::Ok);
-  given.source = nullptr;
-  given.skyRadiance = false;
-  ASSERT_EQ(answerQueries(tables, given, queries.data(), 60, light.data()), Status::Ok);
+  const uint64_t before = buffers();
+  Tables* tables = bake("earth", smallMoments(TableFormat::Half));
+  const uint64_t ofAll = buffers() - before;
+  Tables* lit = bake("earth", smallMoments(TableFormat::Half, CpuQueries::Light));
+  EXPECT_EQ(buffers() - before - ofAll, ofAll - 1) << "No copy of the source.";
+  ASSERT_EQ(answerQueries(tables, queries.data(), 60, nullptr, whole.data()), Status::Ok);
+  ASSERT_EQ(answerQueries(lit, queries.data(), 60, nullptr, light.data()), Status::Ok);
   for (size_t i = 0; i < queries.size(); ++i) {
     for (uint32_t c = 0; c < kSpectrumSize; ++c) {
       EXPECT_EQ(light[i].transmittance[c], whole[i].transmittance[c]) << i;
@@ -194,37 +184,71 @@ TEST_F(QueryTest, WithoutSkyRadianceNoSourceIsNeeded) {
   }
 }
 
+TEST_F(QueryTest, TablesWithoutCpuQueriesKeepNoCopies) {
+  const uint64_t before = buffers();
+  Tables* tables = bake("earth", smallMoments(TableFormat::Half, CpuQueries::None));
+  EXPECT_EQ(buffers() - before, 1u) << "The uniform parameters, and nothing else.";
+  const ProbeQuery query;
+  ProbeAnswer answer;
+  EXPECT_EQ(answerQueries(tables, &query, 1, nullptr, &answer), Status::InvalidArgument);
+  EXPECT_TRUE(hasAll(message(), "cpuQueries|CpuQueries::None")) << message();
+  make("earth", smallMoments(TableFormat::Half));
+  EXPECT_EQ(buffers() - before, 1u + 4u);
+}
+
+// Tables that are uploaded bring their copies, too.
+TEST_F(QueryTest, UploadedTablesAnswerAsTheBakedOnesDo) {
+  const std::vector<ProbeQuery> queries = randomQueries(60);
+  std::vector<ProbeAnswer> wanted(queries.size()), got(queries.size());
+  Tables* baked = bake("earth", smallMoments(TableFormat::Half));
+  Tables* uploaded = make("earth", smallMoments(TableFormat::Half));
+  for (const TableId id : {kTableOpticalDepth, kTableMoments, kTableSource}) {
+    EXPECT_EQ(answerQueries(uploaded, queries.data(), 60, nullptr, got.data()), Status::NotReady);
+    const headless::HostBuffer buffer = device().createHostBuffer(
+        imageOf(baked, id).bytes,
+        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, nullptr);
+    run([&](VkCommandBuffer commands) {
+      return recordTableReadback(baked, commands, id, buffer.buffer(), 0) == Status::Ok;
+    });
+    run([&](VkCommandBuffer commands) {
+      return recordTableUpload(uploaded, commands, id, buffer.buffer(), 0) ==
+             Status::Ok;
+    });
+  }
+  finishFrames();
+  ASSERT_EQ(answerQueries(baked, queries.data(), 60, nullptr, wanted.data()), Status::Ok);
+  ASSERT_EQ(answerQueries(uploaded, queries.data(), 60, nullptr, got.data()), Status::Ok);
+  for (size_t i = 0; i < queries.size(); ++i)
+    for (uint32_t c = 0; c < kSpectrumSize; ++c)
+      EXPECT_EQ(got[i].skyRadiance[c], wanted[i].skyRadiance[c]) << i;
+}
+
 TEST_F(QueryTest, WrongArgumentsAreRefused) {
   std::vector<ProbeQuery> queries = randomQueries(3);
   std::vector<ProbeAnswer> answers(3);
-  const uint8_t some[16] = {};
-  const TableReadbacks copies = {some, some, some};
-  EXPECT_EQ(answerQueries(tables(), copies, queries.data(), 3, answers.data()),
+  EXPECT_EQ(answerQueries(tables(), queries.data(), 3, nullptr, answers.data()),
             Status::Unsupported);
   EXPECT_NE(message().find("Solver::Standard"), std::string::npos) << message();
-  EXPECT_EQ(answerQueries(nullptr, copies, queries.data(), 3, answers.data()),
+  EXPECT_EQ(answerQueries(nullptr, queries.data(), 3, nullptr, answers.data()),
             Status::InvalidArgument);
   Tables* moments = make("earth", smallMoments(TableFormat::Half));
-  EXPECT_EQ(answerQueries(moments, copies, nullptr, 3, answers.data()), Status::InvalidArgument);
+  EXPECT_EQ(answerQueries(moments, nullptr, 3, nullptr, answers.data()), Status::InvalidArgument);
   EXPECT_NE(message().find("null"), std::string::npos) << message();
   queries[2].altitude_m = -1.0;
-  EXPECT_EQ(answerQueries(moments, copies, queries.data(), 3, answers.data()),
+  EXPECT_EQ(answerQueries(moments, queries.data(), 3, nullptr, answers.data()),
             Status::InvalidArgument);
   EXPECT_NE(message().find("ProbeQuery 2 has altitude_m"), std::string::npos) << message();
 }
 
 TEST_F(QueryTest, ThreadsAskTheSameTables) {
   const std::vector<ProbeQuery> queries = randomQueries(200);
-  Tables* tables = make("earth", smallMoments(TableFormat::Half));
-  bakeAll(device(), tables);
-  const Copies copies = readAll(tables);
+  Tables* tables = bake("earth", smallMoments(TableFormat::Half));
   std::vector<ProbeAnswer> answers[4];
   std::vector<std::thread> threads;
   for (auto& own : answers) {
     own.resize(queries.size());
     threads.emplace_back([&] {
-      EXPECT_EQ(answerQueries(tables, copies.pointers(), queries.data(), 200, own.data()),
-                Status::Ok);
+      EXPECT_EQ(answerQueries(tables, queries.data(), 200, nullptr, own.data()), Status::Ok);
     });
   }
   for (std::thread& thread : threads) thread.join();

@@ -130,7 +130,7 @@ TEST_F(ShaderHookTest, ABakesCodeIsAskedForAgainWithEachTables) {
   EXPECT_TRUE(hasAll(lastDiagnostic(), "kMomentDepth|ContextDesc::shaders")) << lastDiagnostic();
   replacement_.prefix = "";
   bakeAll(device(), bake());
-  EXPECT_TRUE(tablesReady(tables_.back()));
+  EXPECT_TRUE(ready(tables_.back()));
 }
 
 TEST(SpirvInterface, OfOurOwnShadersNamesWhatTheyDeclare) {

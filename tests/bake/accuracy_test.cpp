@@ -39,7 +39,7 @@ Spectrum referenceIrradiance(const Parameters& p, double sunZenith) {
     for (int j = 0; j < kPhi; ++j) {
       // Uniform in sin^2: each sample stands for the same irradiance.
       ProbeQuery q;
-      q.viewZenith = std::asin(std::sqrt((i + 0.5) / kTheta));
+      q.zenith = std::asin(std::sqrt((i + 0.5) / kTheta));
       q.azimuth = (j + 0.5) / kPhi * std::numbers::pi;
       q.sunZenith = sunZenith;
       const Spectrum radiance = referenceRadiance(p, q);
@@ -56,7 +56,7 @@ std::vector<ProbeQuery> bandQueries(double elevation) {
       for (double azimuth : {3.0, 60.0, 175.0}) {
         ProbeQuery q;
         q.altitude_m = altitude;
-        q.viewZenith = zenith * kDegree;
+        q.zenith = zenith * kDegree;
         q.azimuth = azimuth * kDegree;
         q.sunZenith = (90.0 - elevation) * kDegree;
         queries.push_back(q);
@@ -114,7 +114,10 @@ TEST_F(AccuracyTest, SegmentsByLength) {
     for (double elevation : {60.0, 20.0, 4.0}) {
       const Spectrum e = referenceIrradiance(p, (90.0 - elevation) * kDegree);
       std::vector<ProbeQuery> queries = bandQueries(elevation);
-      for (ProbeQuery& query : queries) query.distance_m = c.distance;
+      for (ProbeQuery& query : queries) {
+        query.bounded = c.distance >= 0.0;
+        query.distance_m = std::max(c.distance, 0.0);
+      }
       const std::vector<ProbeAnswer> answers = probe(tables, queries);
       for (size_t i = 0; i < queries.size(); ++i) {
         ReferenceAnswer truth;

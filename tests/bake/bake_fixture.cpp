@@ -51,7 +51,8 @@ Tables* BakeTest::bakeTables(const Parameters& parameters, const TableDesc& desc
 
 CpuTable BakeTest::read(Tables* tables, TableId id) {
   CpuTable table;
-  EXPECT_EQ(tableInfo(tables, id, &table.info), Status::Ok) << lastDiagnostic();
+  table.info = imageOf(tables, id);
+  EXPECT_NE(table.info.name, nullptr) << id;
   std::string error;
   headless::HostBuffer buffer =
       device().createHostBuffer(table.info.bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, &error);
@@ -61,7 +62,8 @@ CpuTable BakeTest::read(Tables* tables, TableId id) {
   });
   table.bytes.resize(table.info.bytes);
   std::memcpy(table.bytes.data(), buffer.data(), table.bytes.size());
-  const size_t count = size_t(4) * table.info.width * table.info.height * table.info.depth;
+  const size_t count = size_t(4) * table.info.extent.width * table.info.extent.height *
+                       table.info.extent.depth;
   table.values.resize(count);
   if (table.info.format == VK_FORMAT_R32G32B32A32_SFLOAT) {
     std::memcpy(table.values.data(), table.bytes.data(), table.bytes.size());
@@ -111,10 +113,10 @@ std::vector<ProbeAnswer> BakeTest::probe(Tables* tables, const std::vector<Probe
       count * kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &error);
   EXPECT_NE(buffer.data(), nullptr) << error;
   run([&](VkCommandBuffer commands) {
-    return recordProbe(context_, tables, commands, queries.data(), count,
+    return recordProbe(tables, commands, queries.data(), count,
                        buffer.buffer()) == Status::Ok;
   });
-  EXPECT_EQ(readProbe(tables, queries.data(), count, buffer.data(), answers.data()), Status::Ok);
+  EXPECT_EQ(answerQueries(tables, queries.data(), count, buffer.data(), answers.data()), Status::Ok);
   return answers;
 }
 

@@ -1,34 +1,43 @@
 // Bakes tables on the validated device and brings them to the CPU.
 #pragma once
 
-#include <alpenglow/probe.h>
+#include <alpenglow/query.h>
 #include <alpenglow/tables.h>
 
 #include <map>
 #include <vector>
 
+#include "atmosphere/model/table_limits.h"
+#include "tests/bake/tables_state.h"
 #include "tests/engine/device_fixture.h"
 
 namespace alpenglow::testing {
 
-/// A table on the CPU: four values a texel, x fastest, as TableInfo says.
+/// A table on the CPU: four values a texel, x fastest, as ImageInfo says.
 struct CpuTable {
-  TableInfo info;
+  ImageInfo info;
   std::vector<uint8_t> bytes;  ///< As read back.
   std::vector<float> values;
 
   const float* texel(uint32_t x, uint32_t y, uint32_t z = 0) const {
-    return &values[4 * ((size_t(z) * info.height + y) * info.width + x)];
+    return &values[4 * ((size_t(z) * info.extent.height + y) * info.extent.width + x)];
   }
 };
 
 using TableCopies = std::map<TableId, CpuTable>;
 
 /// Sizes whose bake takes about a CPU second.
-inline constexpr TableSizes kSmallSizes = {64, 16, 16, 4, 8, 32, 16, 4};
+inline constexpr TableSizes kSmallSizes = {.transmittanceMu = 64,
+                                          .transmittanceR = 16,
+                                          .irradianceMuS = 16,
+                                          .irradianceR = 4,
+                                          .scatteringR = 8,
+                                          .scatteringMu = 32,
+                                          .scatteringMuS = 16,
+                                          .scatteringNu = 4};
 
 /// The least that the moment solver works with.
-inline constexpr MomentSettings kTinySettings = {32, 16, 4, 12, 4, 2, 3, 6, 6, 10, 5, 2, 2};
+inline constexpr TableSizes kTinySettings = {32, 16, 4, 12, 4, 2, 3, 6, 6, 10, 5, 2, 2};
 
 /// Of the standard solver, by default at the paper's sizes.
 inline TableDesc standardDesc(const TableSizes& sizes = {}) {

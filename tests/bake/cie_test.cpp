@@ -102,7 +102,7 @@ class CieTest : public BakeTest {
     for (size_t i = 0; i < queries.size(); ++i) {
       const double view = i == 0 ? 0 : rays[i - 1].view;
       queries[i].altitude_m = 2;
-      queries[i].viewZenith = radians(std::abs(view));
+      queries[i].zenith = radians(std::abs(view));
       queries[i].sunZenith = radians(sun);
       queries[i].azimuth = view < 0 ? kPi : 0;
     }

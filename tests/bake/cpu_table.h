@@ -13,9 +13,9 @@ struct DoubleTable {
 
   DoubleTable() = default;
   explicit DoubleTable(const CpuTable& table)
-      : width(table.info.width),
-        height(table.info.height),
-        depth(table.info.depth),
+      : width(table.info.extent.width),
+        height(table.info.extent.height),
+        depth(table.info.extent.depth),
         values(table.values.begin(), table.values.end()) {}
   DoubleTable(uint32_t w, uint32_t h, uint32_t d)
       : width(w), height(h), depth(d), values(size_t(4) * w * h * d) {}

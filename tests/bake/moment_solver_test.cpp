@@ -11,7 +11,7 @@ namespace {
 
 namespace cpu = moments_f64;
 
-constexpr MomentSettings kSettings = {64, 32, 6, 16, 6, 3, 4, 8, 8, 12, 6, 3, 3};
+constexpr TableSizes kSettings = {64, 32, 6, 16, 6, 3, 4, 8, 8, 12, 6, 3, 3};
 constexpr uint32_t kLayers = 5;
 const char* const kLayerNames[kLayers] = {"ln N", "xx", "zz", "xz", "ln E"};
 
@@ -33,7 +33,7 @@ class MomentSolverTest : public BakeTest {
   TableDesc desc(uint32_t orders) const {
     TableDesc result;
     result.orders = orders;
-    result.moments = kSettings;
+    result.sizes = kSettings;
     result.format = TableFormat::Float;
     result.keepOrders = true;
     return result;
@@ -42,9 +42,9 @@ class MomentSolverTest : public BakeTest {
   /// Tables of order `n` that is solved (1 ...), read between its passes.
   void bakeOrder(Tables* tables, size_t n, CpuTable* field, CpuTable* source) {
     bake(tables, 0, "N " + std::to_string(n));
-    *field = read(tables, TableId::OrderMoments);
+    *field = read(tables, kTableOrderMoments);
     bake(tables, 0, "J " + std::to_string(n + 1));
-    *source = read(tables, TableId::OrderSource);
+    *source = read(tables, kTableOrderSource);
   }
 
   /// What a stored logarithm stands for: at the floor there is no light.
@@ -59,8 +59,8 @@ class MomentSolverTest : public BakeTest {
 
   /// The same of all the nodes that a texel's cubics go through; `step`: texels from node to node.
   static bool isLitAround(const CpuTable& field, uint32_t x, uint32_t y, uint32_t step, int c) {
-    const uint32_t columns = (field.info.width - 1) / step;
-    const uint32_t rows = (field.info.height / kLayers - 1) / step;
+    const uint32_t columns = (field.info.extent.width - 1) / step;
+    const uint32_t rows = (field.info.extent.height / kLayers - 1) / step;
     for (uint32_t j = std::max(y / step, 1u) - 1; j <= std::min(y / step + 2, rows); ++j)
       for (uint32_t i = std::max(x / step, 1u) - 1; i <= std::min(x / step + 2, columns); ++i)
         if (!isLit(field.texel(step * i, step * j)[c])) return false;
@@ -77,9 +77,9 @@ class MomentSolverTest : public BakeTest {
   static void compareFields(const std::string& name, const CpuTable& actual, uint32_t step,
                             Function&& expected, double p95, double most) {
     Errors errors[kLayers];
-    const uint32_t rows = actual.info.height / kLayers;
+    const uint32_t rows = actual.info.extent.height / kLayers;
     for (uint32_t y = 0; y < rows; ++y)
-      for (uint32_t x = 0; x < actual.info.width; ++x)
+      for (uint32_t x = 0; x < actual.info.extent.width; ++x)
         for (uint32_t layer = 0; layer < kLayers; ++layer) {
           const cpu::Spectrum wanted = expected(x, y, static_cast<int>(layer));
           const float* got = actual.texel(x, y + layer * rows);
@@ -98,9 +98,9 @@ class MomentSolverTest : public BakeTest {
   static void compareSources(const std::string& name, const CpuTable& field, uint32_t step,
                              const CpuTable& actual, Function&& expected, double p95, double most) {
     Errors errors;
-    for (uint32_t y = 0; y < actual.info.depth; ++y)
-      for (uint32_t x = 0; x < actual.info.height; ++x)
-        for (uint32_t i = 0; i < actual.info.width; ++i) {
+    for (uint32_t y = 0; y < actual.info.extent.depth; ++y)
+      for (uint32_t x = 0; x < actual.info.extent.height; ++x)
+        for (uint32_t i = 0; i < actual.info.extent.width; ++i) {
           const cpu::Spectrum wanted = expected(i, x, y);
           for (int c = 0; c < 3; ++c)
             if (isLit(field.texel(step * x, step * y)[c]))
@@ -117,10 +117,10 @@ TEST_F(MomentSolverTest, OpticalDepthsAreWhatTheTextSaysInDouble) {
   const cpu::Medium medium = makeMediumF64(preset("earth"));
   const cpu::MomentShape shape = bake::makeMomentShapeF64(preset("earth"), desc(1));
   cpu::Solver solver(medium, shape);
-  const CpuTable table = read(bakeTables(preset("earth"), desc(1)), TableId::OpticalDepth);
+  const CpuTable table = read(bakeTables(preset("earth"), desc(1)), kTableOpticalDepth);
   Errors errors;
-  for (uint32_t y = 0; y < table.info.height; ++y)
-    for (uint32_t x = 0; x < table.info.width; ++x) {
+  for (uint32_t y = 0; y < table.info.extent.height; ++y)
+    for (uint32_t x = 0; x < table.info.extent.width; ++x) {
       const cpu::Spectrum wanted =
           solver.depthOfTexel(medium, shape, static_cast<int>(x), static_cast<int>(y));
       for (int c = 0; c < 3; ++c) errors.add(std::abs(table.texel(x, y)[c] - wanted[c]));
@@ -135,7 +135,7 @@ TEST_F(MomentSolverTest, EveryOrderIsWhatTheTextSaysInDouble) {
   const cpu::MomentShape shape = bake::makeMomentShapeF64(earth, description);
   Tables* tables = makeTables(earth, description);
   cpu::Solver solver(medium, shape);
-  const CpuTable opticalDepth = read(bakeTables(earth, desc(1)), TableId::OpticalDepth);
+  const CpuTable opticalDepth = read(bakeTables(earth, desc(1)), kTableOpticalDepth);
   CpuTable field, source;
   for (size_t order = 1; order <= 3; ++order) {
     bakeOrder(tables, order, &field, &source);
@@ -203,7 +203,7 @@ TEST_F(MomentSolverTest, TheSumIsThatOfTheOrdersAndOfTheirTail) {
           std::copy_n(&v[0], 3, nodes.at(x, y + layer * kSettings.nodesR, 0));
         }
     solver.setNodes(nodes);
-    const CpuTable field = read(tables, TableId::Moments);
+    const CpuTable field = read(tables, kTableMoments);
     compareFields(
         name, field, 3,
         [&](uint32_t x, uint32_t y, int layer) {
@@ -212,7 +212,7 @@ TEST_F(MomentSolverTest, TheSumIsThatOfTheOrdersAndOfTheirTail) {
         },
         1e-5, 1e-4);
     compareSources(
-        name + " source", field, 3, read(tables, TableId::Source),
+        name + " source", field, 3, read(tables, kTableSource),
         [&](uint32_t x, uint32_t muS, uint32_t r) {
           cpu::Spectrum sum(0.0);
           for (size_t i = 0; i < last; ++i)
@@ -231,15 +231,15 @@ TEST_F(MomentSolverTest, OrderOneIsExactlyZeroOnTheGroundInDeepTwilight) {
   const Parameters earth = preset("earth");
   ASSERT_EQ(earth.topRadius_m - earth.bottomRadius_m, 60e3);
   TableDesc description = desc(2);
-  description.moments.nodesMuS = 64;
+  description.sizes.nodesMuS = 64;
   Tables* tables = makeTables(earth, description);
   bake(tables, 0, "N 1");
-  const CpuTable field = read(tables, TableId::OrderMoments);
+  const CpuTable field = read(tables, kTableOrderMoments);
   const cpu::MomentShape shape = bake::makeMomentShapeF64(earth, description);
   // Both are texts of one constant; the device's logarithm may be a rounding off.
   const double floor = std::log(physics_f64::darkness());
   uint32_t dark = 0, lit = 0;
-  for (uint32_t x = 0; x < field.info.width; ++x) {
+  for (uint32_t x = 0; x < field.info.extent.width; ++x) {
     const double muS = physics_f64::nodeMuS(shape, physics_f64::unitFromTexel(x, shape.nodesMuS));
     const double elevation = 90.0 - std::acos(muS) * 180.0 / 3.14159265358979323846;
     for (uint32_t layer : {0u, 4u})

@@ -9,12 +9,12 @@
 namespace alpenglow::testing {
 namespace {
 
-constexpr TableId kFinalTables[] = {TableId::OpticalDepth, TableId::Moments, TableId::Source};
+constexpr TableId kFinalTables[] = {kTableOpticalDepth, kTableMoments, kTableSource};
 
 TableDesc tinyDesc(uint32_t orders) {
   TableDesc desc;
   desc.orders = orders;
-  desc.moments = kTinySettings;
+  desc.sizes = kTinySettings;
   return desc;
 }
 
@@ -75,7 +75,7 @@ TEST_F(MomentsTest, EveryPresetAndFormatIsFinite) {
       for (const auto& [id, table] : copies) {
         bool good = true, lit = false;
         for (float v : table.values) {
-          good = good && std::isfinite(v) && (v >= 0.0f || id == TableId::Moments);
+          good = good && std::isfinite(v) && (v >= 0.0f || id == kTableMoments);
           lit = lit || v > 0.0f;
         }
         EXPECT_TRUE(good) << listed.name << " " << table.info.name;
@@ -89,10 +89,10 @@ TEST_F(MomentsTest, EveryPresetAndFormatIsFinite) {
 // them.
 TEST_F(MomentsTest, OneOrderHasNoMultipleScattering) {
   const TableCopies copies = readAll(bakeTables(preset("earth"), tinyDesc(1)));
-  for (float v : copies.at(TableId::Source).values) ASSERT_EQ(v, 0.0f);
-  const CpuTable& moments = copies.at(TableId::Moments);
-  const uint32_t rows = moments.info.height / 5;
-  for (uint32_t x = 0; x < moments.info.width; ++x)
+  for (float v : copies.at(kTableSource).values) ASSERT_EQ(v, 0.0f);
+  const CpuTable& moments = copies.at(kTableMoments);
+  const uint32_t rows = moments.info.extent.height / 5;
+  for (uint32_t x = 0; x < moments.info.extent.width; ++x)
     for (uint32_t y = 0; y < rows; ++y)
       for (int c = 0; c < 3; ++c)
         for (uint32_t layer : {0u, 4u})
@@ -103,11 +103,11 @@ TEST_F(MomentsTest, OneOrderHasNoMultipleScattering) {
 TEST_F(MomentsTest, MoreOrdersAreBrighterAndTheTailIsBrightest) {
   std::vector<CpuTable> tables;
   for (uint32_t orders : {2u, 3u, 5u, 0u})
-    tables.push_back(read(bakeTables(preset("earth"), tinyDesc(orders)), TableId::Moments));
+    tables.push_back(read(bakeTables(preset("earth"), tinyDesc(orders)), kTableMoments));
   for (size_t i = 1; i < tables.size(); ++i) {
     // At the nodes: cubics between them are free to cross.
-    const uint32_t rows = tables[i].info.height / 5, step = fieldTexels(2) - 1;
-    for (uint32_t x = 0; x < tables[i].info.width; x += step)
+    const uint32_t rows = tables[i].info.extent.height / 5, step = fieldTexels(2) - 1;
+    for (uint32_t x = 0; x < tables[i].info.extent.width; x += step)
       for (uint32_t y = 0; y < rows; y += step)
         for (int c = 0; c < 3; ++c)
           for (uint32_t layer : {0u, 4u}) {
@@ -123,10 +123,10 @@ TEST_F(MomentsTest, AnUploadGivesTheSameTables) {
   const TableCopies baked = readAll(bakeTables(earth, tinyDesc(3)));
   Tables* uploaded = makeTables(earth, tinyDesc(3));
   for (const auto& [id, table] : baked) {
-    EXPECT_FALSE(tablesReady(uploaded));
+    EXPECT_FALSE(ready(uploaded));
     upload(uploaded, id, table);
   }
-  EXPECT_TRUE(tablesReady(uploaded));
+  EXPECT_TRUE(ready(uploaded));
   expectSameBytes(baked, readAll(uploaded), "after an upload");
 }
 
@@ -138,27 +138,27 @@ TEST_F(MomentsTest, TablesOfOrdersAreReadRightAfterTheirPass) {
   Tables* tables = makeTables(preset("earth"), desc);
   const auto status = [&](TableId id) { return readbackStatus(tables, id); };
   bake(tables, 0, "M 1");
-  EXPECT_EQ(status(TableId::OrderMoments), Status::NotReady);
+  EXPECT_EQ(status(kTableOrderMoments), Status::NotReady);
   EXPECT_NE(lastDiagnostic().find("\"N 1\""), std::string::npos) << lastDiagnostic();
-  EXPECT_EQ(status(TableId::OrderScattering), Status::Unsupported);
+  EXPECT_EQ(status(kTableOrderScattering), Status::Unsupported);
   EXPECT_NE(lastDiagnostic().find("Solver::Standard"), std::string::npos) << lastDiagnostic();
   bake(tables, 0, "N 1");
-  EXPECT_EQ(status(TableId::OrderSource), Status::NotReady);
-  const CpuTable orderMoments = read(tables, TableId::OrderMoments);
+  EXPECT_EQ(status(kTableOrderSource), Status::NotReady);
+  const CpuTable orderMoments = read(tables, kTableOrderMoments);
   bake(tables, 0, "J 2");
-  EXPECT_EQ(status(TableId::OrderMoments), Status::NotReady);
-  const CpuTable orderSource = read(tables, TableId::OrderSource);
+  EXPECT_EQ(status(kTableOrderMoments), Status::NotReady);
+  const CpuTable orderSource = read(tables, kTableOrderSource);
   bake(tables);
-  const CpuTable moments = read(tables, TableId::Moments);
-  const uint32_t step = fieldTexels(2) - 1, nodes = orderMoments.info.height / 5;
+  const CpuTable moments = read(tables, kTableMoments);
+  const uint32_t step = fieldTexels(2) - 1, nodes = orderMoments.info.extent.height / 5;
   for (uint32_t layer = 0; layer < 5; ++layer)
     for (uint32_t y = 0; y < nodes; ++y)
-      for (uint32_t x = 0; x < orderMoments.info.width; ++x)
+      for (uint32_t x = 0; x < orderMoments.info.extent.width; ++x)
         for (int c = 0; c < 3; ++c)
           ASSERT_NEAR(orderMoments.texel(x, y + layer * nodes)[c],
                       moments.texel(step * x, step * y + layer * fieldTexels(nodes))[c], 1e-5)
               << x << " " << y << " layer " << layer;
-  const CpuTable source = read(tables, TableId::Source);
+  const CpuTable source = read(tables, kTableSource);
   for (size_t i = 0; i < source.values.size(); ++i)
     ASSERT_NEAR(source.values[i], orderSource.values[i], 1e-4f * source.values[i] + 1e-6f);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "atmosphere/model/table_limits.h"
 #include "atmosphere/bake/moment_shape.h"
 
 namespace alpenglow::testing {

@@ -56,8 +56,8 @@ class SolverTest : public BakeTest {
 
   void checkOpticalDepth(const CpuTable& table) const {
     Errors errors;
-    for (uint32_t y = 0; y < table.info.height; ++y)
-      for (uint32_t x = 0; x < table.info.width; ++x) {
+    for (uint32_t y = 0; y < table.info.extent.height; ++y)
+      for (uint32_t x = 0; x < table.info.extent.width; ++x) {
         const cpu::Real2 hMu =
             transmittanceHMu(medium_, {cpu::unitFromTexel(x, shape_.transmittanceMu),
                                        cpu::unitFromTexel(y, shape_.transmittanceR)});
@@ -128,8 +128,8 @@ class SolverTest : public BakeTest {
                       shorterRay(medium_, shape_, t.h, t.mu, t.hitsGround, t.reach),
                   scattering.texel(x, y, z), floorS);
     });
-    for (uint32_t y = 0; y < irradiance.info.height; ++y)
-      for (uint32_t x = 0; x < irradiance.info.width; ++x) {
+    for (uint32_t y = 0; y < irradiance.info.extent.height; ++y)
+      for (uint32_t x = 0; x < irradiance.info.extent.width; ++x) {
         const cpu::Real2 hMuS =
             irradianceHMuS(medium_, {cpu::unitFromTexel(x, shape_.irradianceMuS),
                                      cpu::unitFromTexel(y, shape_.irradianceR)});
@@ -151,16 +151,16 @@ TEST_F(SolverTest, EveryTableIsWhatTheTextSaysInDouble) {
   desc.keepOrders = true;
   Tables* tables = makeTables(preset("earth"), desc);
   bake(tables, 0, "dS 1");
-  const CpuTable direct = read(tables, TableId::OrderIrradiance);
-  const CpuTable rayleigh = read(tables, TableId::OrderScattering);
-  const CpuTable mie = read(tables, TableId::OrderSingleMie);
+  const CpuTable direct = read(tables, kTableOrderIrradiance);
+  const CpuTable rayleigh = read(tables, kTableOrderScattering);
+  const CpuTable mie = read(tables, kTableOrderSingleMie);
   bake(tables, 0, "dS 2");
-  const CpuTable irradiance2 = read(tables, TableId::OrderIrradiance);
-  const CpuTable scattering2 = read(tables, TableId::OrderScattering);
+  const CpuTable irradiance2 = read(tables, kTableOrderIrradiance);
+  const CpuTable scattering2 = read(tables, kTableOrderScattering);
   bake(tables);
-  const CpuTable irradiance3 = read(tables, TableId::OrderIrradiance);
-  const CpuTable scattering3 = read(tables, TableId::OrderScattering);
-  const CpuTable opticalDepth = read(tables, TableId::OpticalDepth);
+  const CpuTable irradiance3 = read(tables, kTableOrderIrradiance);
+  const CpuTable scattering3 = read(tables, kTableOrderScattering);
+  const CpuTable opticalDepth = read(tables, kTableOpticalDepth);
   ASSERT_FALSE(HasFailure());
 
   cpu::Sources& s = cpu::sources;
@@ -192,11 +192,11 @@ TEST_F(SolverTest, TheSumsAreTheSumsOfTheOrders) {
   std::vector<CpuTable> orders, irradiances;
   for (const char* pass : {"dS 1", "dS 2", "dS 3"}) {
     bake(tables, 0, pass);
-    orders.push_back(read(tables, TableId::OrderScattering));
-    irradiances.push_back(read(tables, TableId::OrderIrradiance));
+    orders.push_back(read(tables, kTableOrderScattering));
+    irradiances.push_back(read(tables, kTableOrderIrradiance));
   }
-  const CpuTable s = read(tables, TableId::Scattering);
-  const CpuTable e = read(tables, TableId::Irradiance);
+  const CpuTable s = read(tables, kTableScattering);
+  const CpuTable e = read(tables, kTableIrradiance);
   ASSERT_FALSE(HasFailure());
   forScattering([&](uint32_t x, uint32_t y, uint32_t z, const cpu::Texel& t) {
     const double phase = cpu::rayleighPhase(t.nu);
@@ -207,8 +207,8 @@ TEST_F(SolverTest, TheSumsAreTheSumsOfTheOrders) {
       ASSERT_NEAR(s.texel(x, y, z)[c], sum, 2e-4 * sum + 1e-9);
     }
   });
-  for (uint32_t y = 0; y < e.info.height; ++y)
-    for (uint32_t x = 0; x < e.info.width; ++x)
+  for (uint32_t y = 0; y < e.info.extent.height; ++y)
+    for (uint32_t x = 0; x < e.info.extent.width; ++x)
       for (int c = 0; c < 3; ++c) {
         const double sum = irradiances[1].texel(x, y)[c] + irradiances[2].texel(x, y)[c];
         ASSERT_NEAR(e.texel(x, y)[c], sum, 1e-5 * sum + 1e-9);

@@ -19,7 +19,7 @@ std::vector<ProbeQuery> queriesUnder(double sunZenith) {
       for (const double azimuth : {0.0, 20.0, 90.0, 180.0}) {
         ProbeQuery query;
         query.altitude_m = altitude;
-        query.viewZenith = zenith * kDegree;
+        query.zenith = zenith * kDegree;
         query.sunZenith = sunZenith;
         query.azimuth = azimuth * kDegree;
         queries.push_back(query);
@@ -27,7 +27,7 @@ std::vector<ProbeQuery> queriesUnder(double sunZenith) {
     }
   }
   ProbeQuery ground;
-  ground.irradiance = true;
+  ground.kind = QueryKind::Irradiance;
   ground.sunZenith = sunZenith;
   queries.push_back(ground);
   return queries;
@@ -42,9 +42,9 @@ class SunRangeTest : public BakeTest {
     return desc;
   }
 
-  TableInfo info(const Tables* tables, TableId id) {
-    TableInfo out;
-    EXPECT_EQ(tableInfo(tables, id, &out), Status::Ok);
+  ImageInfo info(const Tables* tables, TableId id) {
+    const ImageInfo out = imageOf(tables, id);
+    EXPECT_NE(out.name, nullptr);
     return out;
   }
 
@@ -87,23 +87,23 @@ TEST_F(SunRangeTest, LightOfASunIsThatOfAllSuns) {
     const auto queries = queriesUnder(zenith);
     EXPECT_LE(difference(probe(whole, queries), probe(part, queries)), c.bound)
         << c.elevation_deg << " degrees";
-    EXPECT_LE(info(part, TableId::Source).height, c.nodes) << c.elevation_deg << " degrees";
+    EXPECT_LE(info(part, kTableSource).extent.height, c.nodes) << c.elevation_deg << " degrees";
   }
 }
 
 TEST_F(SunRangeTest, AWiderRangeTakesMoreNodesUpToAll) {
   const Parameters earth = preset("earth");
-  const uint32_t all = info(makeTables(earth, {}), TableId::Source).height;
+  const uint32_t all = info(makeTables(earth, {}), kTableSource).extent.height;
   uint32_t before = 0;
   for (const double half : {0.0, 5.0, 20.0, 40.0, 89.0}) {
     Tables* tables = makeTables(earth, rangeOf((90.0 - half) * kDegree, (90.0 + half) * kDegree));
-    const uint32_t nodes = info(tables, TableId::Source).height;
+    const uint32_t nodes = info(tables, kTableSource).extent.height;
     EXPECT_GE(nodes, before) << half;
     EXPECT_LE(nodes, all) << half;
     before = nodes;
   }
   EXPECT_EQ(before, all);
-  EXPECT_EQ(info(makeTables(earth, rangeOf(0.0, std::numbers::pi)), TableId::Source).height, all);
+  EXPECT_EQ(info(makeTables(earth, rangeOf(0.0, std::numbers::pi)), kTableSource).extent.height, all);
 }
 
 // Suns out of the range have the light of its ends; nothing else happens.
@@ -125,7 +125,7 @@ TEST_F(SunRangeTest, OtherSunsAreHarmless) {
 TEST_F(SunRangeTest, AnyRangeBakes) {
   for (const double zenith : {0.001, 90.0, 130.0, 180.0}) {
     Tables* tables = bakeTables(preset("earth"), rangeOf(zenith * kDegree, zenith * kDegree));
-    EXPECT_TRUE(tablesReady(tables)) << zenith;
+    EXPECT_TRUE(ready(tables)) << zenith;
     for (const ProbeAnswer& answer : probe(tables, queriesUnder(zenith * kDegree)))
       EXPECT_TRUE(std::isfinite(answer.skyRadiance[2])) << zenith;
   }

@@ -16,7 +16,7 @@ constexpr int kAtmospheres = ALPENGLOW_SWEEP_COUNT;
 /// The least of everything, in half floats and floats by turns.
 TableDesc tinyDesc(int index) {
   TableDesc desc;
-  desc.moments = kTinySettings;
+  desc.sizes = kTinySettings;
   desc.format = index % 2 == 0 ? TableFormat::Half : TableFormat::Float;
   return desc;
 }
@@ -25,7 +25,7 @@ TableDesc tinyDesc(int index) {
 TableDesc smallDesc(int index) {
   TableDesc desc = tinyDesc(index);
   desc.quality = Quality::Draft;
-  desc.moments = {32, 16, 8, 12, 6, 3, 4, 8, 8, 10, 5, 0, 0};
+  desc.sizes = {32, 16, 8, 12, 6, 3, 4, 8, 8, 10, 5, 0, 0};
   return desc;
 }
 
@@ -102,11 +102,11 @@ class SweepTest : public BakeTest {
  protected:
   /// Logarithms of N and of E, so that both are positive where they are finite; and T = exp(-tau).
   void expectTables(const std::string& name, Tables* tables) {
-    for (TableId id : {TableId::OpticalDepth, TableId::Moments, TableId::Source}) {
+    for (TableId id : {kTableOpticalDepth, kTableMoments, kTableSource}) {
       const CpuTable table = read(tables, id);
       bool good = true;
       for (float v : table.values)
-        good = good && std::isfinite(v) && (v >= 0.0f || id == TableId::Moments);
+        good = good && std::isfinite(v) && (v >= 0.0f || id == kTableMoments);
       EXPECT_TRUE(good) << name << " " << table.info.name;
     }
   }
@@ -118,13 +118,15 @@ class SweepTest : public BakeTest {
     const double thickness = p.topRadius_m - p.bottomRadius_m;
     for (int i = 0; i < 400; ++i) {
       ProbeQuery q;
-      q.irradiance = i % 8 == 0;
+      q.kind = i % 8 == 0 ? QueryKind::Irradiance : QueryKind::Ray;
       q.altitude_m =
           i % 3 == 0 ? 0.0 : thickness * random->logarithmic(1e-4, i % 2 == 0 ? 1.0 : 1e2);
-      q.viewZenith = random->uniform(0.0, kPi);
+      q.zenith = random->uniform(0.0, kPi);
       q.sunZenith = random->uniform(0.0, kPi);
       q.azimuth = random->uniform(0.0, kPi);
-      if (i % 4 == 1) q.distance_m = thickness * random->logarithmic(1e-4, 10.0);
+      q.bounded = i % 4 == 1;
+      if (q.bounded) q.distance_m = thickness * random->logarithmic(1e-4, 10.0);
+      if (q.kind == QueryKind::Irradiance) q.zenith = q.azimuth = 0.0;
       queries.push_back(q);
     }
     for (const ProbeAnswer& a : probe(tables, queries)) expectAnswer(name, a);
@@ -184,14 +186,14 @@ Balance SweepTest::balanceOf(const std::string& name, const Parameters& p, Table
   for (const Node& sun : suns) {
     ProbeQuery q;
     q.sunZenith = std::acos(sun.at);
-    q.irradiance = true;
+    q.kind = QueryKind::Irradiance;
     queries.push_back(q);
     weights.push_back(2.0 * (rg / rt) * (rg / rt) * sun.weight);
-    q.irradiance = false;
+    q.kind = QueryKind::Ray;
     q.altitude_m = rt - rg;
     for (const Node& view : views)
       for (const Node& azimuth : azimuths) {
-        q.viewZenith = std::acos(view.at);
+        q.zenith = std::acos(view.at);
         q.azimuth = azimuth.at;
         queries.push_back(q);
         weights.push_back(4.0 * sun.weight * view.weight * azimuth.weight * -view.at);
@@ -203,7 +205,7 @@ Balance SweepTest::balanceOf(const std::string& name, const Parameters& p, Table
     expectAnswer(name, answers[i]);
     for (uint32_t c = 0; c < kSpectrumSize; ++c) {
       const ProbeAnswer& a = answers[i];
-      if (queries[i].irradiance)
+      if (queries[i].kind == QueryKind::Irradiance)
         result.ground[c] += weights[i] * (1.0 - p.groundAlbedo[c]) * (a.direct[c] + a.sky[c]);
       else
         result.out[c] += weights[i] * (a.skyRadiance[c] + a.groundRadiance[c]);

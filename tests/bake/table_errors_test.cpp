@@ -43,13 +43,13 @@ TEST_F(TableErrorsTest, WhatBelongsToTheOtherSolverIsRefused) {
   expectRefused(desc, "Solver::Moments and MieStorage::Packed");
   desc = {};
   desc.sizes.scatteringNu = 8;
-  expectRefused(desc, "Solver::Moments and TableSizes");
+  expectRefused(desc, "Solver::Moments and TableSizes::scatteringNu");
   desc = standardDesc();
   desc.quality = Quality::High;
   expectRefused(desc, "Solver::Standard and a Quality");
   desc = standardDesc();
-  desc.moments.viewPanels = 4;
-  expectRefused(desc, "Solver::Standard and MomentSettings");
+  desc.sizes.viewPanels = 4;
+  expectRefused(desc, "Solver::Standard and TableSizes::viewPanels");
   desc = {};
   desc.solver = static_cast<Solver>(6);
   expectRefused(desc, "solver 6");
@@ -60,17 +60,17 @@ TEST_F(TableErrorsTest, WhatBelongsToTheOtherSolverIsRefused) {
 
 TEST_F(TableErrorsTest, WrongMomentSettingsAreRefusedByName) {
   TableDesc desc;
-  desc.moments.degree = 48;
+  desc.sizes.degree = 48;
   expectRefused(desc, "degree is 48, but must be from 2 to 47");
-  desc.moments = {};
-  desc.moments.depthMu = 5000;
+  desc.sizes = {};
+  desc.sizes.depthMu = 5000;
   expectRefused(desc, "depthMu is 5000");
-  desc.moments = {};
-  desc.moments.viewPanels = 1;
+  desc.sizes = {};
+  desc.sizes.viewPanels = 1;
   expectRefused(desc, "viewPanels is 1");
-  desc.moments = {};
-  desc.moments.azimuths = 8;
-  desc.moments.degree = 16;
+  desc.sizes = {};
+  desc.sizes.azimuths = 8;
+  desc.sizes.degree = 16;
   expectRefused(desc, "azimuths is 8, but must be above half the degree, which is 16");
 }
 
@@ -89,17 +89,17 @@ TEST_F(TableErrorsTest, TablesThatAreNotReadyAreNotReadOrProbed) {
   const headless::HostBuffer buffer = device().createHostBuffer(
       1 << 20, VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &error);
   run([&](VkCommandBuffer commands) {
-    EXPECT_EQ(recordTableReadback(tables, commands, TableId::Scattering, buffer.buffer(), 0),
+    EXPECT_EQ(recordTableReadback(tables, commands, kTableScattering, buffer.buffer(), 0),
               Status::NotReady);
-    EXPECT_EQ(recordTableReadback(tables, commands, TableId::OrderScattering, buffer.buffer(), 0),
+    EXPECT_EQ(recordTableReadback(tables, commands, kTableOrderScattering, buffer.buffer(), 0),
               Status::Unsupported);
     EXPECT_NE(lastDiagnostic().find("keepOrders"), std::string::npos) << lastDiagnostic();
     const ProbeQuery query;
-    EXPECT_EQ(
-        recordProbe(context(), tables, commands, &query, 1, buffer.buffer()),
-        Status::NotReady);
-    EXPECT_NE(lastDiagnostic().find("0 of "), std::string::npos) << lastDiagnostic();
-    EXPECT_EQ(recordTableReadback(tables, commands, TableId::Scattering, VK_NULL_HANDLE, 0),
+    const size_t sentences = diagnostics().size();
+    EXPECT_EQ(recordProbe(tables, commands, &query, 1, buffer.buffer()),
+              Status::NotReady);
+    EXPECT_EQ(diagnostics().size(), sentences) << lastDiagnostic();  // It is no error.
+    EXPECT_EQ(recordTableReadback(tables, commands, kTableScattering, VK_NULL_HANDLE, 0),
               Status::InvalidArgument);
     return true;
   });
@@ -111,16 +111,16 @@ TEST_F(TableErrorsTest, OrderTablesAreReadOnlyBetweenOrders) {
   desc.keepOrders = true;
   Tables* tables = makeTables(preset("earth"), desc);
   const auto status = [&](TableId id) { return readbackStatus(tables, id); };
-  EXPECT_EQ(status(TableId::OrderScattering), Status::NotReady);
+  EXPECT_EQ(status(kTableOrderScattering), Status::NotReady);
   bake(tables, 0, "dE 1");
-  EXPECT_EQ(status(TableId::OrderScattering), Status::NotReady);
+  EXPECT_EQ(status(kTableOrderScattering), Status::NotReady);
   bake(tables, 0, "dS 1");
-  EXPECT_EQ(status(TableId::OrderScattering), Status::Ok);
-  EXPECT_EQ(status(TableId::OrderSingleMie), Status::Ok);
+  EXPECT_EQ(status(kTableOrderScattering), Status::Ok);
+  EXPECT_EQ(status(kTableOrderSingleMie), Status::Ok);
   bake(tables);
-  EXPECT_EQ(status(TableId::OrderScattering), Status::Ok);
-  EXPECT_EQ(status(TableId::OrderSingleMie), Status::NotReady);
-  EXPECT_EQ(status(TableId::Scattering), Status::Ok);
+  EXPECT_EQ(status(kTableOrderScattering), Status::Ok);
+  EXPECT_EQ(status(kTableOrderSingleMie), Status::NotReady);
+  EXPECT_EQ(status(kTableScattering), Status::Ok);
 }
 
 TEST_F(TableErrorsTest, FrameNumbersThatCannotBeAreRefused) {
@@ -149,15 +149,15 @@ TEST_F(TableErrorsTest, WrongQueriesAreRefusedByIndexAndField) {
   const headless::HostBuffer buffer =
       device().createHostBuffer(1024, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &error);
   ProbeQuery queries[2];
-  queries[1].viewZenith = 4.0;
+  queries[1].zenith = 4.0;
   run([&](VkCommandBuffer commands) {
     EXPECT_EQ(
-        recordProbe(context(), tables, commands, queries, 2, buffer.buffer()),
+        recordProbe(tables, commands, queries, 2, buffer.buffer()),
         Status::InvalidArgument);
-    EXPECT_NE(lastDiagnostic().find("ProbeQuery 1 has viewZenith = 4"), std::string::npos)
+    EXPECT_NE(lastDiagnostic().find("ProbeQuery 1 has zenith = 4"), std::string::npos)
         << lastDiagnostic();
     EXPECT_EQ(
-        recordProbe(context(), tables, commands, queries, 0, buffer.buffer()),
+        recordProbe(tables, commands, queries, 0, buffer.buffer()),
         Status::InvalidArgument);
     return true;
   });

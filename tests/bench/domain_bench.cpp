@@ -27,12 +27,11 @@ class DomainBench : public TruthTest {
       row.cpu_s = std::min(row.cpu_s, userSeconds() - start);
       row.bytes = double(bytesNow() - before);
     }
-    TableInfo source;
-    EXPECT_EQ(tableInfo(tables, TableId::Source, &source), Status::Ok);
+    const ImageInfo source = imageOf(tables, kTableSource);
     const TruthErrors errors = errorsOf(set, tables);
     row.p95 = errors.p95(truth::Band::Low);
     row.most = errors.most(truth::Band::Low);
-    std::printf("| %s | %u | %.2f | %.2f | %.2f / %.2f | %.2f |\n", name, source.height, row.cpu_s,
+    std::printf("| %s | %u | %.2f | %.2f | %.2f / %.2f | %.2f |\n", name, source.extent.height, row.cpu_s,
                 1e-6 * row.bytes, 100 * row.p95, 100 * row.most, 100 * errors.irradiance);
     std::fflush(stdout);
     return row;
@@ -55,10 +54,10 @@ TEST_F(DomainBench, AFixedEveningSunCostsAQuarter) {
   TableDesc desc;
   desc.sunZenithFrom = desc.sunZenithTo = 87.0 * std::numbers::pi / 180.0;
   row("the sun at 3 degrees", *set, desc);
-  desc.moments.depthMu = 128;
-  desc.moments.depthH = 64;
+  desc.sizes.depthMu = 128;
+  desc.sizes.depthH = 64;
   const Row one = row("the same, optical depths of 128 x 64", *set, desc);
-  desc.moments = {};
+  desc.sizes = {};
   desc.quality = Quality::High;
   const Row fine = row("the same, level high", *set, desc);
   EXPECT_LE(one.cpu_s, all.cpu_s / 4.0);

@@ -29,6 +29,13 @@ struct EffectCase {
   double tableBytes = 0.0, bakeBytes = 0.0, sliceBytes = 0.0, airBytes = 0.0;
 };
 
+TableSizes sizesOf(const Parameters& parameters, Quality quality) {
+  TableDesc desc;
+  desc.quality = quality;
+  EXPECT_EQ(resolveTableDesc(parameters, &desc, {}), Status::Ok);
+  return desc.sizes;
+}
+
 class EffectsBench : public ShaftTest {
  protected:
   double bytes() {
@@ -41,8 +48,8 @@ class EffectsBench : public ShaftTest {
   Tables* bakeOnce(EffectCase* each) {
     const double before = bytes();
     TableDesc desc;
-    desc.without = each->without & kTableEffects;
-    if (each->settingsOfWhole) desc.moments = momentSettings(preset("earth"), desc.quality, {});
+    desc.disabledEffects = each->without & kTableEffects;
+    if (each->settingsOfWhole) desc.sizes = sizesOf(preset("earth"), desc.quality);
     Tables* tables = nullptr;
     EXPECT_EQ(createTables(context(), preset("earth"), desc, &tables), Status::Ok) << message();
     const double made = bytes();

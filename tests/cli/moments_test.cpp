@@ -9,6 +9,15 @@
 namespace alpenglow::test {
 namespace {
 
+/// What createTables makes of them.
+TableSizes sizesOf(const Parameters& parameters, Quality quality, const TableSizes& given = {}) {
+  TableDesc desc;
+  desc.quality = quality;
+  desc.sizes = given;
+  EXPECT_EQ(resolveTableDesc(parameters, &desc, {}), Status::Ok);
+  return desc.sizes;
+}
+
 class Moments : public Program {
  protected:
   Moments()
@@ -42,8 +51,8 @@ TEST_F(Moments, AreBakedByDefaultAtMediumQuality) {
   EXPECT_EQ(file.desc.quality, Quality::Medium);
   EXPECT_EQ(file.desc.orders, 0u);
   EXPECT_EQ(file.desc.format, TableFormat::Half);
-  EXPECT_EQ(io::momentSettingsText(file.desc.moments),
-            io::momentSettingsText(momentSettings(file.parameters, Quality::Medium, {})));
+  EXPECT_EQ(io::momentSettingsText(file.desc.sizes),
+            io::momentSettingsText(sizesOf(file.parameters, Quality::Medium)));
   ASSERT_EQ(file.parts.size(), 3u);
 }
 
@@ -51,14 +60,14 @@ TEST_F(Moments, AreBakedAsOptionsSay) {
   expectGood({"bake", "mars", "-o", folder_ / "t.exr", "--solver", "moments", "--quality", "draft",
               "--moments", "nodesR=6,degree=4", "--orders", "3", "--format", "float"});
   const io::TableFile file = tables("t.exr");
-  MomentSettings custom;
+  TableSizes custom;
   custom.nodesR = 6;
   custom.degree = 4;
   EXPECT_EQ(file.desc.quality, Quality::Draft);
   EXPECT_EQ(file.desc.orders, 3u);
   EXPECT_EQ(file.desc.format, TableFormat::Float);
-  EXPECT_EQ(io::momentSettingsText(file.desc.moments),
-            io::momentSettingsText(momentSettings(file.parameters, Quality::Draft, custom)));
+  EXPECT_EQ(io::momentSettingsText(file.desc.sizes),
+            io::momentSettingsText(sizesOf(file.parameters, Quality::Draft, custom)));
 }
 
 TEST_F(Moments, ASceneChoosesThem) {

@@ -130,7 +130,7 @@ Spectrum transmittance(double altitude_m, double elevation_deg) {
   EXPECT_EQ(findPreset("earth", &earth, {}), Status::Ok);
   ProbeQuery query;
   query.altitude_m = altitude_m;
-  query.viewZenith = (90.0 - elevation_deg) / kDegrees;
+  query.zenith = (90.0 - elevation_deg) / kDegrees;
   query.sunZenith = 0.5 * kPi;
   ReferenceAnswer answer;
   EXPECT_EQ(referenceSingleScattering(earth, query, &answer, {}), Status::Ok);

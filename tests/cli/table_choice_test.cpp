@@ -110,7 +110,7 @@ TEST_F(TableChoice, SettingsThatDoNotFitAreRefused) {
 TEST_F(TableChoice, FilesOfTheOtherSolverAreRefused) {
   TableDesc standard;
   standard.solver = Solver::Standard;
-  standard.sizes = {64, 16, 16, 4, 4, 8, 8, 2};
+  standard.sizes = {.transmittanceMu = 64, .transmittanceR = 16, .irradianceMuS = 16, .irradianceR = 4, .scatteringR = 4, .scatteringMu = 8, .scatteringMuS = 8, .scatteringNu = 2};
   const std::string file = tables(standard);
   const std::vector<std::string> load = {"--tables", file};
   expectRefused(probeOf("earth", joined(load, {"--solver", "moments"})),
@@ -134,7 +134,7 @@ TEST_F(TableChoice, FilesOfTheOtherSolverAreRefused) {
 TEST_F(TableChoice, FilesOfOtherSettingsAreRefused) {
   TableDesc desc;
   desc.quality = Quality::Low;
-  desc.moments.nodesR = 5;
+  desc.sizes.nodesR = 5;
   const std::vector<std::string> load = {"--tables", tables(desc)};
   expectRefused(probeOf("earth", joined(load, {"--quality", "high"})),
                 {"--quality high", "t.exr", "holds low"});

@@ -24,8 +24,8 @@ class EffectsTest : public SkyTest {
 
   TableDesc desc(EffectFlags without) {
     TableDesc desc;
-    desc.moments = kTinySettings;
-    desc.without = without;
+    desc.sizes = kTinySettings;
+    desc.disabledEffects = without;
     return desc;
   }
 
@@ -42,10 +42,9 @@ class EffectsTest : public SkyTest {
       for (double view : {10.0, 80.0, 100.0}) {
         ProbeQuery query;
         query.altitude_m = 1500.0;
-        query.viewZenith = radians(view);
+        query.zenith = radians(view);
         query.sunZenith = radians(sun);
         query.azimuth = radians(35.0);
-        query.distance_m = -1.0;
         result.push_back(query);
       }
     }
@@ -107,11 +106,10 @@ TEST_F(EffectsTest, ImagesThatStayAreThoseOfWhatIsOn) {
     ASSERT_NE(made, nullptr);
     finishFrames(context());
     EXPECT_EQ(report().images - before.images, each.images) << each.without;
-    TableInfo info;
     const bool multiple = (each.without & kMultiple) == 0;
-    EXPECT_EQ(tableInfo(made, TableId::Moments, &info) == Status::Ok, multiple);
+    EXPECT_EQ(imageOf(made, kTableMoments).name != nullptr, multiple);
     const bool source = multiple && (each.without & kMie) == 0;
-    EXPECT_EQ(tableInfo(made, TableId::Source, &info) == Status::Ok, source);
+    EXPECT_EQ(imageOf(made, kTableSource).name != nullptr, source);
     EXPECT_FALSE(probeAll(queries(), made).empty());
     destroyTables(made);
     finishFrames(context());

@@ -131,7 +131,7 @@ TEST_F(EffectRefusalsTest, ViewsAndTablesAreWithoutTheSame) {
   Tables* clear = nullptr;
   TableDesc clearDesc;
   clearDesc.quality = Quality::Draft;
-  clearDesc.without = kMie;
+  clearDesc.disabledEffects = kMie;
   ASSERT_EQ(createTables(context(), preset("earth"), clearDesc, &clear), Status::Ok) << message();
   bakeAll(device(), clear);
   View* const whole = makeView(without(kViewEffects));
@@ -174,15 +174,15 @@ TEST_F(EffectRefusalsTest, DescriptionsThatMakeNoSense) {
   expectViewRefused(desc, "ViewDesc::without is 0x2|kTableEffects");
 
   TableDesc tables;
-  tables.without = kMultiple;
+  tables.disabledEffects = kMultiple;
   tables.orders = 3;
   expectTablesRefused(tables, "3 orders|Effect::MultipleScattering");
   tables = {};
-  tables.without = kGround;
-  expectTablesRefused(tables, "TableDesc::without is 0x40|kTableEffects");
+  tables.disabledEffects = kGround;
+  expectTablesRefused(tables, "TableDesc::disabledEffects is 0x40|kTableEffects");
   tables = smallTables();
-  tables.without = kMie;
-  expectTablesRefused(tables, "Solver::Standard|TableDesc::without");
+  tables.disabledEffects = kMie;
+  expectTablesRefused(tables, "Solver::Standard|TableDesc::disabledEffects");
 }
 
 TEST_F(EffectRefusalsTest, ShaftsAreWithoutWhatTheirViewIs) {

@@ -61,7 +61,7 @@ TEST_F(EffectSceneTest, ClearAirIsTheSameWithoutAerosols) {
   Tables* const whole = tables("earth, black ground, clear", parameters);
   TableDesc desc;
   desc.quality = Quality::Draft;
-  desc.without = kMie;
+  desc.disabledEffects = kMie;
   Tables* part = nullptr;
   parameters.mie.present = true;
   ASSERT_EQ(createTables(context(), parameters, desc, &part), Status::Ok) << message();

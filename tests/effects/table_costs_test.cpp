@@ -1,4 +1,5 @@
 // What tables are without is made by nobody: pipelines, images, memory and dispatches of a bake.
+#include "atmosphere/model/table_limits.h"
 #include "tests/bake/bake_fixture.h"
 #include "tests/sky/sky_fixture.h"
 
@@ -29,7 +30,7 @@ constexpr uint64_t kNodesR = kTinySettings.nodesR, kNodesMuS = kTinySettings.nod
                    kNodes = kNodesR * kNodesMuS, kModes = kTinySettings.degree + 1,
                    kHarmonics = kModes * (kModes + 1) / 2,
                    kRings =
-                       kTinySettings.ringsSky + kTinySettings.ringsLimb + kTinySettings.ringsGround;
+                       kTinySettings.zenithsSky + kTinySettings.zenithsLimb + kTinySettings.zenithsGround;
 
 uint64_t sourceBytes() {
   return bytesOf(kTinySettings.sourceGamma * kTinySettings.sourcePsi, kNodesMuS, kNodesR, kTexel);
@@ -55,9 +56,9 @@ class TableCostsTest : public DeviceTest {
       return now;
     };
     TableDesc desc;
-    desc.moments = kTinySettings;
+    desc.sizes = kTinySettings;
     desc.format = TableFormat::Float;
-    desc.without = without;
+    desc.disabledEffects = without;
     desc.orders = hasEffect(without, Effect::MultipleScattering) ? 4 : 0;
     const ResourceReport start = report();
     Tables* tables = nullptr;

@@ -40,7 +40,7 @@ class ViewCostsTest : public ShaftTest {
     ASSERT_EQ(createContext(plain, &own), Status::Ok) << lastDiagnostic();
     TableDesc draft;
     draft.quality = Quality::Draft;
-    draft.without = desc.without & kTableEffects;
+    draft.disabledEffects = desc.without & kTableEffects;
     Tables* tables = nullptr;
     ASSERT_EQ(createTables(own, preset("earth"), draft, &tables), Status::Ok) << lastDiagnostic();
     const ResourceReport before = reportOf(own);

@@ -51,15 +51,17 @@ TEST(ProbeFile, ReadsBothKinds) {
   ASSERT_EQ(queries->size(), 3u);
   const ProbeQuery& a = (*queries)[0].query;
   EXPECT_EQ((*queries)[0].id, "a");
-  EXPECT_FALSE(a.irradiance);
+  EXPECT_EQ(a.kind, QueryKind::Ray);
   EXPECT_EQ(a.altitude_m, 2.0);
-  EXPECT_DOUBLE_EQ(a.viewZenith, 88.0 * kRadians);
+  EXPECT_DOUBLE_EQ(a.zenith, 88.0 * kRadians);
   EXPECT_DOUBLE_EQ(a.sunZenith, 92.0 * kRadians);
   EXPECT_DOUBLE_EQ(a.azimuth, 45.0 * kRadians);
-  EXPECT_LT(a.distance_m, 0.0);
-  EXPECT_TRUE((*queries)[1].query.irradiance);
+  EXPECT_FALSE(a.bounded);
+  EXPECT_EQ(a.distance_m, 0.0);
+  EXPECT_EQ((*queries)[1].query.kind, QueryKind::Irradiance);
   EXPECT_DOUBLE_EQ((*queries)[1].query.sunZenith, 60.0 * kRadians);
   EXPECT_DOUBLE_EQ((*queries)[2].query.azimuth, -90.0 * kRadians);  // 20 turns less
+  EXPECT_TRUE((*queries)[2].query.bounded);
   EXPECT_EQ((*queries)[2].query.distance_m, 12.5);
 }
 
@@ -123,7 +125,7 @@ ProbeAnswer someAnswer() {
 std::vector<NamedQuery> bothQueries() {
   NamedQuery ray{"ray \"1\"", {}};
   NamedQuery surface{"surface", {}};
-  surface.query.irradiance = true;
+  surface.query.kind = QueryKind::Irradiance;
   return {ray, surface};
 }
 

@@ -192,7 +192,7 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameQueries) {
 TEST(Schema, WrittenAnswersAndReportsObey) {
   NamedQuery ray{"a", {}};
   NamedQuery surface{"b", {}};
-  surface.query.irradiance = true;
+  surface.query.kind = QueryKind::Irradiance;
   const auto plain = formatAnswers({ray, surface}, std::vector<ProbeAnswer>(2));
   const auto reference = formatAnswers({ray, surface}, std::vector<ReferenceAnswer>(2));
   EXPECT_EQ(errorOf("answers.schema.json", Json::parse(*plain)), "");

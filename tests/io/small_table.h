@@ -41,8 +41,8 @@ inline io::TableFile makeTables(const TableDesc& desc, bool orders) {
     if (desc.solver == Solver::Moments) {
       if (order > 1) add("source" + suffix, expected[2]);
       io::TablePart nodes = expected[1];
-      nodes.width = desc.moments.nodesMuS;
-      nodes.height = 5 * desc.moments.nodesR;
+      nodes.width = desc.sizes.nodesMuS;
+      nodes.height = 5 * desc.sizes.nodesR;
       if (order < count) add("moments" + suffix, nodes);
       continue;
     }
@@ -57,14 +57,14 @@ inline TableDesc smallStandard() {
   TableDesc desc;
   desc.solver = Solver::Standard;
   desc.orders = 2;
-  desc.sizes = {4, 3, 5, 2, 2, 4, 3, 2};
+  desc.sizes = {.transmittanceMu = 4, .transmittanceR = 3, .irradianceMuS = 5, .irradianceR = 2, .scatteringR = 2, .scatteringMu = 4, .scatteringMuS = 3, .scatteringNu = 2};
   return desc;
 }
 
 inline TableDesc smallMoments() {
   TableDesc desc;
   desc.quality = Quality::Low;
-  desc.moments = {4, 3, 2, 3, 4, 2, 3, 5, 4, 3, 2, 2, 2};
+  desc.sizes = {4, 3, 2, 3, 4, 2, 3, 5, 4, 3, 2, 2, 2};
   return desc;
 }
 

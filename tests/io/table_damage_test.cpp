@@ -98,7 +98,7 @@ TEST_F(Damage, EveryByteOfASmallFileAltered) {
 
 TEST_F(Damage, AThousandCutsOfAFullFile) {
   TableDesc desc = smallStandard();
-  desc.sizes = defaultTableSizes();
+  desc = resolved(desc, preset("earth"));
   const std::string whole = bytesOf(makeTables(desc, false));
   std::mt19937_64 random(20261122);
   // Most cuts near the ends, where headers and the last lines are, and the rest anywhere. The file
@@ -178,8 +178,8 @@ TEST_F(Damage, AHugeSizeIsRefusedBeforeItIsAllocated) {
   const std::string whole = bytesOf(makeTables(desc, false));
   expectRefused(withChecksum(replaced(whole, "1024x4x3x2", "4096x409x4")), "sizes");
   desc = smallMoments();
-  desc.moments.nodesR = desc.moments.nodesMuS = 10;
-  desc.moments.sourceGamma = desc.moments.sourcePsi = 10;
+  desc.sizes.nodesR = desc.sizes.nodesMuS = 10;
+  desc.sizes.sourceGamma = desc.sizes.sourcePsi = 10;
   std::string moments = bytesOf(makeTables(desc, false));
   const auto grown = [&](const std::string& setting) {
     moments = replaced(moments, setting + "10", setting + "99");
@@ -195,7 +195,7 @@ TEST_F(Damage, AHugeSizeIsRefusedBeforeItIsAllocated) {
 // that is left out, so that the attribute keeps its length.
 TEST_F(Damage, EverySettingMustBeThere) {
   const std::string whole = bytesOf(makeTables(smallMoments(), false));
-  const std::string all = momentSettingsText(smallMoments().moments);
+  const std::string all = momentSettingsText(smallMoments().sizes);
   for (size_t start = 0; start < all.size();) {
     const size_t end = std::min(all.find(',', start), all.size() - 1);
     const std::string name = all.substr(start, all.find('=', start) - start);

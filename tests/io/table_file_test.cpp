@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "atmosphere/model/table_limits.h"
 #include "small_table.h"
 #include "temporary_folder.h"
 
@@ -22,7 +23,7 @@ void expectSame(const TableFile& a, const TableFile& b, size_t parts) {
   EXPECT_EQ(a.desc.solver, b.desc.solver);
   EXPECT_EQ(a.desc.orders, b.desc.orders);
   EXPECT_EQ(a.desc.quality, b.desc.quality);
-  EXPECT_EQ(momentSettingsText(a.desc.moments), momentSettingsText(b.desc.moments));
+  EXPECT_EQ(momentSettingsText(a.desc.sizes), momentSettingsText(b.desc.sizes));
   EXPECT_EQ(a.desc.format, b.desc.format);
   EXPECT_EQ(a.desc.mie, b.desc.mie);
   EXPECT_EQ(transmittanceSizeText(a.desc.sizes), transmittanceSizeText(b.desc.sizes));
@@ -233,17 +234,17 @@ TEST(TableSizes, LimitsAreSentences) {
   desc.sizes.scatteringR = desc.sizes.scatteringMuS = desc.sizes.scatteringMu = 4096;
   refused(desc, "texels");
   desc = smallMoments();
-  desc.moments.degree = kMaxDegree + 1;
+  desc.sizes.degree = kMaxDegree + 1;
   refused(desc, "degree");
   desc = smallMoments();
-  desc.moments.viewPanels = 0;
+  desc.sizes.viewPanels = 0;
   refused(desc, "viewPanels");
   desc = smallMoments();
-  desc.moments.sourceGamma = desc.moments.sourcePsi = 4096;
-  desc.moments.nodesR = 3;
-  desc.moments.nodesMuS = 2;
+  desc.sizes.sourceGamma = desc.sizes.sourcePsi = 4096;
+  desc.sizes.nodesR = 3;
+  desc.sizes.nodesMuS = 2;
   refused(desc, "100663296");
-  desc.moments.nodesR = desc.moments.nodesMuS = 4096;
+  desc.sizes.nodesR = desc.sizes.nodesMuS = 4096;
   refused(desc, std::to_string(12286 * 12286 * 5));
 }
 
@@ -255,40 +256,42 @@ TEST(TableSettings, DefaultsFollowSolverAndQuality) {
   desc = resolved(desc, earth);
   EXPECT_EQ(desc.orders, 5u);
   EXPECT_EQ(scatteringSizeText(desc.sizes), "32x128x32x8");
-  EXPECT_EQ(momentSettingsText(desc.moments), "");
+  EXPECT_EQ(momentSettingsText(desc.sizes), "");
   EXPECT_EQ(desc.quality, Quality::Default);
 
+  TableDesc whole;
+  ASSERT_EQ(resolveTableDesc(earth, &whole, {}), Status::Ok);
   desc = resolved(TableDesc{}, earth);
   EXPECT_EQ(desc.solver, Solver::Moments);
   EXPECT_EQ(desc.orders, 0u);
   EXPECT_EQ(desc.quality, Quality::Medium);
   EXPECT_EQ(scatteringSizeText(desc.sizes), "0x0x0x0");
   EXPECT_TRUE(checkSizes(desc)) << checkSizes(desc).error;
-  EXPECT_EQ(momentSettingsText(desc.moments),
-            momentSettingsText(momentSettings(earth, Quality::Medium, {})));
+  EXPECT_EQ(momentSettingsText(desc.sizes),
+            momentSettingsText(whole.sizes));
 
   TableDesc custom;
   custom.quality = Quality::High;
-  custom.moments.nodesR = 7;
+  custom.sizes.nodesR = 7;
   custom = resolved(custom, earth);
   EXPECT_EQ(custom.quality, Quality::High);
-  EXPECT_EQ(custom.moments.nodesR, 7u);
+  EXPECT_EQ(custom.sizes.nodesR, 7u);
   EXPECT_TRUE(checkSizes(custom)) << checkSizes(custom).error;
 }
 
 TEST(TableSettings, MomentSettingsGoBothWays) {
-  MomentSettings settings;
+  TableSizes settings;
   ASSERT_TRUE(parseMomentSettings("nodesR=16", &settings));
   ASSERT_TRUE(parseMomentSettings("degree=12,nodesR=17", &settings));
   EXPECT_EQ(settings.nodesR, 17u);
   EXPECT_EQ(settings.degree, 12u);
   EXPECT_EQ(momentSettingsText(settings), "nodesR=17,degree=12");
   EXPECT_EQ(momentSettingsText({}), "");
-  const std::string all = momentSettingsText(smallMoments().moments);
+  const std::string all = momentSettingsText(smallMoments().sizes);
   EXPECT_EQ(all,
             "depthMu=4,depthH=3,nodesR=2,nodesMuS=3,ringsSky=4,ringsLimb=2,ringsGround=3,"
             "azimuths=5,degree=4,sourceGamma=3,sourcePsi=2,solverPanels=2,viewPanels=2");
-  MomentSettings again;
+  TableSizes again;
   ASSERT_TRUE(parseMomentSettings(all, &again));
   EXPECT_EQ(momentSettingsText(again), all);
   for (const char* bad :

@@ -10,10 +10,11 @@ namespace {
 ProbeQuery ray(double altitude, double view, double sun, double azimuth, double distance = -1.0) {
   ProbeQuery q;
   q.altitude_m = altitude;
-  q.viewZenith = radians(view);
+  q.zenith = radians(view);
   q.sunZenith = radians(sun);
   q.azimuth = radians(azimuth);
-  q.distance_m = distance;
+  q.bounded = distance >= 0.0;
+  q.distance_m = std::max(distance, 0.0);
   return q;
 }
 
@@ -31,7 +32,7 @@ void expectNear(const Spectrum& got, const Spectrum& wanted, double tolerance,
   const double greatest = *std::max_element(wanted.value, wanted.value + kSpectrumSize);
   for (uint32_t c = 0; c < kSpectrumSize; ++c) {
     EXPECT_NEAR(got[c], wanted[c], tolerance * std::max(greatest, 1e-6))
-        << "channel " << c << " at " << q.altitude_m << " m, zenith " << q.viewZenith << ", sun "
+        << "channel " << c << " at " << q.altitude_m << " m, zenith " << q.zenith << ", sun "
         << q.sunZenith;
   }
 }
@@ -65,7 +66,7 @@ TEST_F(ONeilTest, TakesAsManyPointsAsAsked) {
   const ModelReference reference(preset("earth"));
   TableDesc desc;
   desc.solver = Solver::ONeil;
-  desc.samples = 3;
+  desc.sizes.stepCount = 3;
   Tables* three = nullptr;
   ASSERT_EQ(createTables(context(), preset("earth"), desc, &three), Status::Ok) << message();
   bakeAll(device(), three);
@@ -85,7 +86,7 @@ TEST_F(HillaireTest, TableIsSecondOrderOverOneLessFactor) {
   for (const int y : {0, 3, 12, 30}) {
     for (const int x : {17, 20, 26, 31}) {
       ProbeQuery q;
-      q.irradiance = true;
+      q.kind = QueryKind::Irradiance;
       q.altitude_m = thickness * y / 31.0;
       q.sunZenith = std::acos(2.0 * x / 31.0 - 1.0);
       queries.push_back(q);
@@ -140,8 +141,8 @@ TEST_F(SchafhitzelTest, TableHoldsSingleScatteringAtARightAngle) {
 /// in air of molecules alone is the same for both.
 double azimuthRatio(const std::vector<ProbeAnswer>& answers, const std::vector<ProbeQuery>& q) {
   const auto plain = [&](size_t i) {
-    const double nu = std::cos(q[i].viewZenith) * std::cos(q[i].sunZenith) +
-                      std::sin(q[i].viewZenith) * std::sin(q[i].sunZenith) * std::cos(q[i].azimuth);
+    const double nu = std::cos(q[i].zenith) * std::cos(q[i].sunZenith) +
+                      std::sin(q[i].zenith) * std::sin(q[i].sunZenith) * std::cos(q[i].azimuth);
     return answers[i].skyRadiance[0] / (1.0 + nu * nu);
   };
   return plain(0) / plain(1);

@@ -38,10 +38,11 @@ TEST_P(EveryModelTest, AnswersAreFiniteAndNotNegative) {
           for (const double distance : {-1.0, 1e-3, 1e3, 4e5}) {
             ProbeQuery q;
             q.altitude_m = altitude;
-            q.viewZenith = radians(view);
+            q.zenith = radians(view);
             q.sunZenith = radians(sun);
             q.azimuth = radians(azimuth);
-            q.distance_m = distance;
+            q.bounded = distance >= 0.0;
+            q.distance_m = std::max(distance, 0.0);
             queries.push_back(q);
           }
   for (const char* planet : {"earth", "mars"}) {

@@ -59,7 +59,7 @@ ModelReference::Ray ModelReference::rayOf(const ProbeQuery& q, double azimuth) c
   const Vec sun = {std::sin(q.sunZenith) * std::cos(azimuth),
                    std::sin(q.sunZenith) * std::sin(azimuth), std::cos(q.sunZenith)};
   return makeRay({0.0, 0.0, p_.bottomRadius_m + q.altitude_m},
-                 {std::sin(q.viewZenith), 0.0, std::cos(q.viewZenith)}, sun);
+                 {std::sin(q.zenith), 0.0, std::cos(q.zenith)}, sun);
 }
 
 Spectrum ModelReference::sunlight(const Vec& at, const Vec& sun) const {
@@ -165,9 +165,9 @@ Spectrum ModelReference::hoffmanPreetham(const ProbeQuery& query) const {
   };
   const Ray ray = rayOf(query, query.azimuth);
   const double nu = dot(ray.direction, ray.sun);
-  const bool whole = query.distance_m < 0.0 && !ray.hitsGround;
-  const double d = query.distance_m < 0.0 ? ray.length : std::min(query.distance_m, ray.length);
-  const double view = mass(query.viewZenith), sun = mass(query.sunZenith);
+  const bool whole = !query.bounded && !ray.hitsGround;
+  const double d = !query.bounded ? ray.length : std::min(query.distance_m, ray.length);
+  const double view = mass(query.zenith), sun = mass(query.sunZenith);
   Spectrum light;
   for (uint32_t c = 0; c < kSpectrumSize; ++c) {
     const double r = p_.rayleigh.scattering_per_m[c], m = p_.mie.scattering_per_m[c];

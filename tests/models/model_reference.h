@@ -1,7 +1,7 @@
 // The simpler models' formulas in double, written from their papers and not from the shaders' text.
 #pragma once
 
-#include <alpenglow/probe.h>
+#include <alpenglow/query.h>
 
 #include "tests/sky/sky_fixture.h"
 

@@ -29,13 +29,13 @@ TEST_F(ModelRefusalTest, ChoicesOfOtherSolvers) {
   desc.keepOrders = true;
   expectRefused(desc, "Solver::ONeil|keepOrders");
   desc.keepOrders = false;
-  desc.samples = 5000;
-  expectRefused(desc, "samples is 5000|1024");
+  desc.sizes.stepCount = 5000;
+  expectRefused(desc, "stepCount is 5000|1024");
   desc.solver = Solver::Schafhitzel;
-  desc.samples = 4;
-  expectRefused(desc, "Solver::Schafhitzel|samples");
+  desc.sizes.stepCount = 4;
+  expectRefused(desc, "Solver::Schafhitzel|stepCount");
   desc.solver = Solver::Moments;
-  expectRefused(desc, "Solver::Moments|samples");
+  expectRefused(desc, "Solver::Moments|stepCount");
 }
 
 TEST_F(ModelRefusalTest, TablesHaveNoId) {
@@ -44,8 +44,10 @@ TEST_F(ModelRefusalTest, TablesHaveNoId) {
   Tables* tables = nullptr;
   ASSERT_EQ(createTables(context(), preset("earth"), desc, &tables), Status::Ok) << message();
   for (uint32_t id = 0; id < kTableIdCount; ++id) {
-    TableInfo info;
-    EXPECT_EQ(tableInfo(tables, static_cast<TableId>(id), &info), Status::Unsupported);
+    EXPECT_EQ(imageOf(tables, static_cast<TableId>(id)).name, nullptr);
+    EXPECT_EQ(recordTableReadback(tables, reinterpret_cast<VkCommandBuffer>(1),
+                                  static_cast<TableId>(id), VK_NULL_HANDLE, 0),
+              Status::Unsupported);
     EXPECT_TRUE(hasAll(message(), "have no table")) << message();
   }
   destroyTables(tables);

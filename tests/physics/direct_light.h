@@ -2,12 +2,13 @@
 // own text in float (as the GPU has it) and in double, and the rays to try it with.
 #pragma once
 
-#include <alpenglow/probe.h>
+#include <alpenglow/query.h>
 #include <alpenglow/tables.h>
 
 #include <vector>
 
 #include "atmosphere/bake/moment_shape.h"
+#include "atmosphere/bake/table_set.h"
 #include "atmosphere/model/query.h"
 
 #define IN(type) const type&
@@ -75,19 +76,19 @@ inline bool isBalanced(const light_f32::DirectLight::Light& light) {
   return true;
 }
 
-inline TableDesc tableDesc(const Parameters& parameters, const MomentSettings& settings) {
+inline TableDesc tableDesc(const Parameters& parameters, const TableSizes& settings) {
   TableDesc desc;
-  desc.moments = momentSettings(parameters, Quality::Default, settings);
-  return desc;
+  desc.sizes = settings;
+  return bake::completed(parameters, desc);
 }
 
 inline light_f64::DirectLight lightsInDouble(const Parameters& p,
-                                             const MomentSettings& settings = {}) {
+                                             const TableSizes& settings = {}) {
   return {makeMediumF64(p), bake::makeMomentShapeF64(p, tableDesc(p, settings))};
 }
 
 inline light_f32::DirectLight lightsInFloat(const Parameters& p,
-                                            const MomentSettings& settings = {}) {
+                                            const TableSizes& settings = {}) {
   return {makeMediumF32(p), bake::makeMomentShapeF32(p, tableDesc(p, settings))};
 }
 

@@ -20,7 +20,7 @@ ProbeQuery query(double altitude_m, double viewZenith_deg, double sunZenith_deg,
                  double azimuth_deg) {
   ProbeQuery result;
   result.altitude_m = altitude_m;
-  result.viewZenith = viewZenith_deg * kDegree;
+  result.zenith = viewZenith_deg * kDegree;
   result.sunZenith = sunZenith_deg * kDegree;
   result.azimuth = azimuth_deg * kDegree;
   return result;
@@ -157,6 +157,7 @@ TEST(HardCases, ShortSegments) {
       for (double view : {0.0, 89.9, 90.0, 91.0, 150.0})
         for (double sun : {20.0, 85.0, 91.0}) {
           ProbeQuery q = query(h, view, sun, 60.0);
+          q.bounded = true;
           q.distance_m = length;
           hard.add(q);
         }

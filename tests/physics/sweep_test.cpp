@@ -96,10 +96,11 @@ class Sweep {
                    : chance(0.8) ? thickness * logUniform(1e-6, 1.0)
                                  : thickness * logUniform(1.0, 1e4);
     const double horizon = std::acos(std::max(-1.0, physics_f64::horizonMu(m, q.altitude_m)));
-    q.viewZenith = angle(horizon);
+    q.zenith = angle(horizon);
     q.sunZenith = angle(horizon);
     q.azimuth = chance(0.2) ? oneOf({0.0, kPi}) : uniform(0.0, kPi);
-    if (chance(0.3)) q.distance_m = thickness * logUniform(1e-6, 1e3);
+    q.bounded = chance(0.3);
+    if (q.bounded) q.distance_m = thickness * logUniform(1e-6, 1e3);
     return q;
   }
 
@@ -145,13 +146,13 @@ std::string describe(const Parameters& p, const ProbeQuery& q) {
       "view %.9g, sun %.9g, azimuth %.9g, distance %.9g",
       p.bottomRadius_m, p.topRadius_m - p.bottomRadius_m, p.rayleigh.scaleHeight_m,
       p.rayleigh.present, p.rayleigh.scattering_per_m[0], p.mie.scaleHeight_m, p.mie.present,
-      p.mie.extinction_per_m[0], p.mie.asymmetry, q.altitude_m, q.viewZenith, q.sunZenith,
+      p.mie.extinction_per_m[0], p.mie.asymmetry, q.altitude_m, q.zenith, q.sunZenith,
       q.azimuth, q.distance_m);
   return text;
 }
 
 // A table of 32 x 16 optical depths each: what is tried here is that nothing breaks.
-constexpr MomentSettings kSmall = {32, 16};
+constexpr TableSizes kSmall = {32, 16};
 
 // Altitudes along a ray have steps of some 1e-7 of the radius, and optical depths follow.
 double depthTolerance(const physics_f64::Medium& m) {

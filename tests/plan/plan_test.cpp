@@ -68,7 +68,7 @@ TEST(Plan, AFixedEveningSunTakesAQuarter) {
   needs.sunDiscRadius = 0.0047;
   needs.tables.quality = Quality::Medium;
   const Plan plan = planOf(needs);
-  EXPECT_EQ(plan.tables.moments.depthMu, 128u);
+  EXPECT_EQ(plan.tables.sizes.depthMu, 128u);
   EXPECT_LE(plan.cost.units, plan.whole.units / 4);
   uint64_t bytes = 0;
   for (uint32_t i = 0; i < plan.imageCount; ++i)

@@ -30,9 +30,9 @@ class BruteForce {
   };
 
   Answer evaluate(const ProbeQuery& q) const {
-    const double sinView = std::sin(q.viewZenith), sinSun = std::sin(q.sunZenith);
+    const double sinView = std::sin(q.zenith), sinSun = std::sin(q.sunZenith);
     const Vector eye = {0, 0, p_.bottomRadius_m + q.altitude_m};
-    const Vector view = {sinView, 0, std::cos(q.viewZenith)};
+    const Vector view = {sinView, 0, std::cos(q.zenith)};
     const Vector sun = {sinSun * std::cos(q.azimuth), sinSun * std::sin(q.azimuth),
                         std::cos(q.sunZenith)};
     const std::array<double, 2> air = insideSphere(eye, view, p_.topRadius_m);

@@ -157,7 +157,7 @@ TEST(PathTracer, OrderOneIsTheExactOne) {
       EXPECT_LT(traced.air.error[i], 3e-3 * value);
       // The columns' table may be off by as much as its own test allows.
       EXPECT_NEAR(traced.air.value[i], value, 4.0 * traced.air.error[i] + 3e-6 * value)
-          << c.name << " " << c.query.viewZenith / kDegree << " channel " << i;
+          << c.name << " " << c.query.zenith / kDegree << " channel " << i;
     }
   }
 }
@@ -202,7 +202,7 @@ void expectEnergyConserved(const PathTracer& tracer, const ProbeQuery& query) {
     expected[static_cast<glm::length_t>(c)] =
         -std::expm1(-depth.value[c]) / (4.0 * std::numbers::pi);
   }
-  const Vector view(std::sin(query.viewZenith), 0.0, std::cos(query.viewZenith));
+  const Vector view(std::sin(query.zenith), 0.0, std::cos(query.zenith));
   const Mean mean = overAllSuns(64, [&](const Vector& sun, PathSampler& sampler) {
     return tracer.skySample({ray.ray.h, sun}, view, ray.length, 1, kAllOrders,
                             1.0 / (3.0 * expected), sampler);

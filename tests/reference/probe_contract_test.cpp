@@ -41,7 +41,7 @@ TEST(ProbeContract, SpaceInFrontAddsNothing) {
   // Going back along the ray turns the vertical away from the view's side.
   ProbeQuery query;
   query.altitude_m = std::hypot(x, z) - 6360e3;
-  query.viewZenith = zenith + turn;
+  query.zenith = zenith + turn;
   query.sunZenith = 40 * kDegree + turn;
   const ProbeAnswer far = ask(query);
   EXPECT_TRUE(far.hitsGround);
@@ -49,6 +49,7 @@ TEST(ProbeContract, SpaceInFrontAddsNothing) {
   expectClose(far.skyRadiance, entry.skyRadiance, 1e-8, "sky");
   expectClose(far.groundRadiance, entry.groundRadiance, 1e-8, "ground");
 
+  query.bounded = true;
   query.distance_m = 0.999 * out;
   expectNothing(ask(query));
   query.distance_m = out + 1000.0;
@@ -136,7 +137,7 @@ TEST(ProbeContract, BadQueriesAreRefused) {
   ReferenceAnswer a;
   a.value.skyRadiance[0] = 7;
   for (double ProbeQuery::*field :
-       {&ProbeQuery::altitude_m, &ProbeQuery::viewZenith, &ProbeQuery::sunZenith,
+       {&ProbeQuery::altitude_m, &ProbeQuery::zenith, &ProbeQuery::sunZenith,
         &ProbeQuery::azimuth, &ProbeQuery::distance_m}) {
     for (double value : {nan, infinity, -infinity}) {
       ProbeQuery query = rayQuery(2, 70, 80, 50);

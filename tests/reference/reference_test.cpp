@@ -78,8 +78,8 @@ TEST(Reference, StandardErrorsAreHonest) {
     double sum = 0.0, squares = 0.0, claimed = 0.0;
     for (uint64_t seed = 0; seed < kSeeds; ++seed) {
       const ReferenceAnswer a = truth(query, samplesOf(16384, 0, seed));
-      const double x = query.irradiance ? a.value.sky[2] : a.value.skyRadiance[2];
-      const double e = query.irradiance ? a.standardError.sky[2] : a.standardError.skyRadiance[2];
+      const double x = query.kind == QueryKind::Irradiance ? a.value.sky[2] : a.value.skyRadiance[2];
+      const double e = query.kind == QueryKind::Irradiance ? a.standardError.sky[2] : a.standardError.skyRadiance[2];
       sum += x;
       squares += x * x;
       claimed += e * e / kSeeds;

@@ -26,7 +26,7 @@ SceneRay rayFrom(double bottomRadius, const ProbeQuery& query) {
   SceneRay ray;
   ray.position = (bottomRadius + query.altitude_m) * frame.z;
   ray.sun = frame.direction(std::cos(query.sunZenith), 0.0);
-  ray.view = frame.direction(std::cos(query.viewZenith), query.azimuth);
+  ray.view = frame.direction(std::cos(query.zenith), query.azimuth);
   return ray;
 }
 

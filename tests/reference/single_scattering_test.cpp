@@ -81,13 +81,14 @@ TEST(SingleScattering, AddsUpAlongARay) {
   const double r = p.bottomRadius_m + all.altitude_m;
   for (double d : {10.0, 5e3, 280e3, 600e3}) {
     ProbeQuery near = all;
+    near.bounded = true;
     near.distance_m = d;
     // In the plane of view and sun: turning by `turn` about the planet's centre takes x to y.
-    const double x = d * std::sin(all.viewZenith), z = r + d * std::cos(all.viewZenith);
+    const double x = d * std::sin(all.zenith), z = r + d * std::cos(all.zenith);
     const double turn = std::atan2(x, z);
     ProbeQuery far = all;
-    far.altitude_m = physics_f64::altitudeAt(m, all.altitude_m, std::cos(all.viewZenith), d);
-    far.viewZenith = all.viewZenith - turn;
+    far.altitude_m = physics_f64::altitudeAt(m, all.altitude_m, std::cos(all.zenith), d);
+    far.zenith = all.zenith - turn;
     far.sunZenith = all.sunZenith - turn;
     const ReferenceAnswer whole = singleScattering(m, all, 1e-11);
     const ReferenceAnswer first = singleScattering(m, near, 1e-11);

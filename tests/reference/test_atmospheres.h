@@ -2,7 +2,7 @@
 #pragma once
 
 #include <alpenglow/parameters.h>
-#include <alpenglow/probe.h>
+#include <alpenglow/query.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,16 +22,17 @@ inline ProbeQuery rayQuery(double altitude_m, double viewZenith_deg, double sunZ
                            double azimuth_deg, double distance_m = -1.0) {
   ProbeQuery query;
   query.altitude_m = altitude_m;
-  query.viewZenith = viewZenith_deg * kDegree;
+  query.zenith = viewZenith_deg * kDegree;
   query.sunZenith = sunZenith_deg * kDegree;
   query.azimuth = azimuth_deg * kDegree;
-  query.distance_m = distance_m;
+  query.bounded = distance_m >= 0.0;
+  query.distance_m = std::max(distance_m, 0.0);
   return query;
 }
 
 inline ProbeQuery irradianceQuery(double altitude_m, double sunZenith_deg) {
   ProbeQuery query;
-  query.irradiance = true;
+  query.kind = QueryKind::Irradiance;
   query.altitude_m = altitude_m;
   query.sunZenith = sunZenith_deg * kDegree;
   return query;

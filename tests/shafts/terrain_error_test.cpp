@@ -57,7 +57,7 @@ class TerrainErrors : public TerrainShaftTest {
     const reference::SceneRay ray{vector(o), vector(view), vector(vec(d.sun.direction))};
     const auto hit = rays().closest(ray.position, ray.view, 1e-3, reference::kEndless);
     const ProbeQuery query = rayQuery(parameters, d.camera, view, vec(d.sun.direction));
-    const double mu = std::cos(query.viewZenith), h = query.altitude_m;
+    const double mu = std::cos(query.zenith), h = query.altitude_m;
     const bool ground = physics_f64::rayHitsGround(medium, h, mu);
     double length = ground ? physics_f64::distanceToGround(medium, h, mu)
                            : physics_f64::distanceToTop(medium, h, mu);

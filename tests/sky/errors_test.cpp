@@ -107,8 +107,9 @@ TEST_F(StandardSkyTest, TablesMustFitTheView) {
   desc.extent = {16, 12};
   Target target(device(), desc);
   target.draw([&](VkCommandBuffer commands) {
+    message().clear();
     EXPECT_EQ(recordSky(view(), commands, unbaked, goodDraw()), Status::NotReady);
-    EXPECT_TRUE(hasAll(message(), "not ready|0 of ")) << message();
+    EXPECT_EQ(message(), "");  // It is no error.
     EXPECT_EQ(recordSky(view(), commands, packed, goodDraw()), Status::InvalidArgument);
     EXPECT_TRUE(hasAll(message(), "packed|ViewDesc::mie says in full")) << message();
     EXPECT_EQ(recordSky(foreign, commands, tables(), goodDraw()), Status::InvalidArgument);

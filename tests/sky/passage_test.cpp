@@ -22,7 +22,7 @@ class PassageTest : public SkyTest {
   static ProbeQuery ray(double altitude, double below, double elevation) {
     ProbeQuery query;
     query.altitude_m = altitude;
-    query.viewZenith = 0.5 * kPi + below;
+    query.zenith = 0.5 * kPi + below;
     query.sunZenith = 0.5 * kPi - radians(elevation);
     query.azimuth = radians(50.0);
     return query;

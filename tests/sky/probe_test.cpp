@@ -48,7 +48,7 @@ Rays raysOf(const Parameters& parameters, const SkyDraw& draw, Projection projec
       const ProbeQuery query =
           rayQuery(parameters, draw.camera, *direction, vec(draw.sun.direction));
       const double horizon = horizonZenith(parameters, query.altitude_m);
-      if (std::abs(query.viewZenith - horizon) < kHorizonSlack) continue;
+      if (std::abs(query.zenith - horizon) < kHorizonSlack) continue;
       rays.queries.push_back(query);
       rays.pixels.emplace_back(x, y);
     }
@@ -115,7 +115,7 @@ TEST_P(PixelTest, PixelsAreWhatProbesAnswer) {
                                                 : 1e-4)
           << one.name << ", sun at " << elevation << " degrees, pixel ("
           << rays.pixels[found.index].first << ", " << rays.pixels[found.index].second
-          << "), zenith angle " << worst.viewZenith << ", azimuth " << worst.azimuth;
+          << "), zenith angle " << worst.zenith << ", azimuth " << worst.azimuth;
     }
   }
 }

@@ -39,7 +39,7 @@ TableDesc smallTables(MieStorage mie) {
   desc.solver = Solver::Standard;
   desc.orders = 2;
   desc.mie = mie;
-  desc.sizes = {64, 16, 16, 4, 8, 32, 16, 4};
+  desc.sizes = {.transmittanceMu = 64, .transmittanceR = 16, .irradianceMuS = 16, .irradianceR = 4, .scatteringR = 8, .scatteringMu = 32, .scatteringMuS = 16, .scatteringNu = 4};
   return desc;
 }
 
@@ -62,7 +62,7 @@ void bakeAll(headless::Device& device, Tables* tables) {
   }
 }
 
-std::vector<ProbeAnswer> probe(headless::Device& device, Context* context, const Tables* tables,
+std::vector<ProbeAnswer> probe(headless::Device& device, const Tables* tables,
                                const std::vector<ProbeQuery>& queries) {
   const auto count = static_cast<uint32_t>(queries.size());
   std::string error = "The probe was refused.";
@@ -70,14 +70,14 @@ std::vector<ProbeAnswer> probe(headless::Device& device, Context* context, const
       count * kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &error);
   const bool ran = device.run(
       [&](VkCommandBuffer commands) {
-        return recordProbe(context, tables, commands, queries.data(), count,
+        return recordProbe(tables, commands, queries.data(), count,
                            buffer.buffer()) == Status::Ok;
       },
       &error);
   EXPECT_TRUE(ran) << error;
   if (!ran) return {};
   std::vector<ProbeAnswer> answers(count);
-  EXPECT_EQ(readProbe(tables, queries.data(), count, buffer.data(), answers.data()), Status::Ok);
+  EXPECT_EQ(answerQueries(tables, queries.data(), count, buffer.data(), answers.data()), Status::Ok);
   return answers;
 }
 
@@ -118,7 +118,7 @@ ProbeQuery rayQuery(const Parameters& parameters, const Camera& camera, const Ve
   const Vec acrossView = cross(up, direction), acrossSun = cross(up, sun);
   ProbeQuery query;
   query.altitude_m = std::max(length(position) - parameters.bottomRadius_m, 0.0);
-  query.viewZenith = zenith(direction);
+  query.zenith = zenith(direction);
   query.sunZenith = zenith(sun);
   query.azimuth = std::atan2(length(cross(acrossView, acrossSun)), dot(acrossView, acrossSun));
   return query;
@@ -255,7 +255,7 @@ Picture SkyTest::picture(View* with, Tables* baked, const SkyDraw& draw,
 }
 
 std::vector<ProbeAnswer> SkyTest::probeAll(const std::vector<ProbeQuery>& queries, Tables* with) {
-  return probe(device(), context(), with != nullptr ? with : tables(), queries);
+  return probe(device(), with != nullptr ? with : tables(), queries);
 }
 
 bool hasAll(const std::string& text, const std::string& parts) {

@@ -3,7 +3,7 @@
 
 #include <alpenglow/alpenglow.h>
 #include <alpenglow/headless_target.h>
-#include <alpenglow/probe.h>
+#include <alpenglow/query.h>
 #include <alpenglow/view.h>
 
 #include <array>
@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "tests/engine/device_fixture.h"
+#include "tests/bake/tables_state.h"
 #include "tests/sky/vulkan_wrap.h"
 
 namespace alpenglow::testing {
@@ -66,7 +67,7 @@ Parameters preset(const char* name);
 /// Bakes all of it, one pass a submit.
 void bakeAll(headless::Device& device, Tables* tables);
 /// The answers of recordProbe. Empty after a failure.
-std::vector<ProbeAnswer> probe(headless::Device& device, Context* context, const Tables* tables,
+std::vector<ProbeAnswer> probe(headless::Device& device, const Tables* tables,
                                const std::vector<ProbeQuery>& queries);
 
 /// A draw of the whole extent: irradiance 1, no disc.

@@ -142,7 +142,7 @@ TEST_F(TwilightTest, EachRayDarkensWithTheSun) {
         for (size_t i = 0; i < kSuns; ++i) {
           ProbeQuery query;
           query.altitude_m = altitude;
-          query.viewZenith = radians(zenith);
+          query.zenith = radians(zenith);
           query.azimuth = radians(azimuth);
           query.sunZenith = radians(91.0 + 0.25 * double(i));
           queries.push_back(query);
@@ -161,7 +161,7 @@ TEST_F(TwilightTest, EachRayDarkensWithTheSun) {
       if (i % kSuns != 0 && depth <= 40.0) {
         ASSERT_LT(now, answers[i - 1].skyRadiance[c])
             << "sun " << depth << " degrees down, " << queries[i].altitude_m << " m, zenith angle "
-            << queries[i].viewZenith << ", azimuth " << queries[i].azimuth;
+            << queries[i].zenith << ", azimuth " << queries[i].azimuth;
       }
     }
   }

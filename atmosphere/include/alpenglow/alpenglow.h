@@ -4,7 +4,6 @@
 #include <alpenglow/context.h>
 #include <alpenglow/mesh.h>
 #include <alpenglow/parameters.h>
-#include <alpenglow/probe.h>
 #include <alpenglow/query.h>
 #include <alpenglow/shafts.h>
 #include <alpenglow/tables.h>

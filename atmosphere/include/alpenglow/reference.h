@@ -4,7 +4,7 @@
 #pragma once
 
 #include <alpenglow/parameters.h>
-#include <alpenglow/probe.h>
+#include <alpenglow/query.h>
 
 namespace alpenglow {
 inline namespace v1 {

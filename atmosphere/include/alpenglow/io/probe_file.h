@@ -2,7 +2,7 @@
 #pragma once
 
 #include <alpenglow/io/result.h>
-#include <alpenglow/probe.h>
+#include <alpenglow/query.h>
 #include <alpenglow/reference.h>
 
 #include <string>

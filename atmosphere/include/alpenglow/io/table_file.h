@@ -79,12 +79,12 @@ const std::vector<std::string>& qualityNames();
 std::string qualityName(Quality quality);
 std::optional<Quality> findQuality(const std::string& name);
 
-/// Settings as the command line and files spell them: "nodesR=16,degree=12", the fields of
-/// MomentSettings that are not 0.
-std::string momentSettingsText(const MomentSettings& settings);
+/// Sizes of Solver::Moments as the command line and files spell them: "nodesR=16,degree=12", those
+/// that are not 0. Zenith angles are called ringsSky, ringsLimb and ringsGround there.
+std::string momentSettingsText(const TableSizes& settings);
 /// Takes the fields that the text names, and leaves the others; each may stand there once, from 2
-/// to kMaxTableSide (degree: to kMaxDegree). Otherwise a sentence, with `settings` unchanged.
-Done parseMomentSettings(const std::string& text, MomentSettings* settings);
+/// to kMaxTableSide (degree: to 47). Otherwise a sentence, with `settings` unchanged.
+Done parseMomentSettings(const std::string& text, TableSizes* settings);
 
 /// Writes the file whole or not at all, and reads it back before it takes its place.
 Done writeTableFile(const std::string& path, const TableFile& file);

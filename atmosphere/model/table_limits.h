@@ -1,0 +1,15 @@
+// Bounds of TableSizes, and what follows from them.
+#pragma once
+
+#include <cstdint>
+
+namespace alpenglow {
+
+/// Of TableSizes::degree.
+inline constexpr uint32_t kMaxDegree = 47;
+/// Of TableSizes::stepCount.
+inline constexpr uint32_t kMaxStepCount = 1024;
+/// Texels across a layer of the table of moments: the nodes, and two between any two of them.
+constexpr uint32_t fieldTexels(uint32_t nodes) { return 3 * (nodes - 1) + 1; }
+
+}  // namespace alpenglow
