@@ -83,6 +83,8 @@ struct Counters {
   std::atomic<uint64_t> peakBytes{0};
   std::atomic<uint64_t> dispatches{0};
   std::atomic<uint64_t> draws{0};
+  std::atomic<uint64_t> lutUpdates{0}, lutsSkipped{0};
+  std::atomic<uint64_t> shadowMapUpdates{0}, shadowMapsSkipped{0};
 
   void addBytes(uint64_t count);  ///< Raises peakBytes too.
   void removeBytes(uint64_t count) { bytes -= count; }

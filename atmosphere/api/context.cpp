@@ -103,7 +103,7 @@ Status createContext(const ContextDesc& desc, Context** out) {
     needed.deviceFeatures &= ~DeviceFeatureFlags{kFeatureDynamicRendering};
   Status status = createDevice(desc, needed, &context->device);
   if (status == Status::Ok)
-    status = bake::Resources::create(*context->device, context->live, &context->bake);
+    status = bake::Resources::create(*context->device, desc.setStages, &context->bake);
   if (status == Status::Ok) context->bake->context = context;
   if (status == Status::Ok && (context->capabilities & kCapabilityBake) != 0)
     status = sky::ProbePass::create(*context->bake, &context->probe);

@@ -12,7 +12,6 @@ inline namespace v1 {
 struct Context {
   engine::Device* device = nullptr;
   CapabilityFlags capabilities = 0;
-  bake::LiveObjects live;
   bake::Resources* bake = nullptr;  ///< Layouts that every capability needs.
   sky::ProbePass* probe = nullptr;  ///< Only with kCapabilityBake.
 };

@@ -11,7 +11,10 @@
 #include "atmosphere/model/solvers.h"
 #include "atmosphere/plan/rules.h"
 #include "atmosphere/sky/parts.h"
+#include "atmosphere/sky/sky_pass.h"
 #include "atmosphere/sky/view_cost.h"
+#include "atmosphere/view/frame.h"
+#include "atmosphere/view/view_desc.h"
 
 namespace alpenglow {
 namespace {
@@ -39,23 +42,10 @@ PlanCost tableCost(const bake::SolverPlan& plan) {
   return {c.bytes, c.bakeBytes, c.texels, c.images, c.pipelines, c.dispatches, c.units};
 }
 
-/// As far as its costs go.
-ViewDesc viewOf(const Plan& plan) {
-  ViewDesc view;
-  view.solver = plan.tables.solver;
-  view.mie = plan.tables.mie;
-  view.without = plan.viewWithout;
-  view.alwaysSliced = plan.skySlice;
-  view.projection = plan.request.projection;
-  return view;
-}
-
-bool sliced(const Plan& plan) { return plan.skySlice && hasSkySlice(plan.tables.solver); }
-
 PlanCost costOf(const Parameters& parameters, const Plan& plan) {
   const Completed tables = completedTables(parameters, plan);
   PlanCost cost = tableCost(solverPlanOf(tables));
-  add(&cost, sky::viewCost(tables.desc, viewOf(plan), sliced(plan), plan.sceneDepth));
+  add(&cost, sky::viewCost(tables.desc, view::resolve(tables.desc, plan.view).picture));
   add(&cost, plan::shaftCost(plan));
   return cost;
 }
@@ -75,9 +65,9 @@ void listImages(const Parameters& parameters, Plan* plan) {
   }
   ImageInfo views[sky::kMaxViewImages];
   const uint32_t count =
-      sky::viewImages(tables.desc, viewOf(*plan), sliced(*plan), plan->sceneDepth, views);
+      sky::viewImages(tables.desc, view::resolve(tables.desc, plan->view).picture, views);
   for (uint32_t i = 0; i < count; ++i) append(views[i]);
-  if (plan->shafts) append(plan::shadowMapImage());
+  if (plan::drawsShafts(*plan)) append(plan::shadowMapImage());
 }
 
 // Lowers the level until everything fits; what the host gave is kept.
@@ -123,7 +113,7 @@ void priceChoices(const Parameters& parameters, Plan* plan) {
 PlanCost wholeCost(const Parameters& parameters, const Plan& plan) {
   Plan whole;
   whole.tables.solver = whole.request.tables.solver = plan.tables.solver;
-  whole.request.projection = plan.request.projection;
+  whole.view.projection = whole.request.view.projection = plan.request.view.projection;
   for (uint32_t i = 0; i < kEffectCount; ++i) whole.choices[i].on = true;
   plan::applyEffects(parameters, &whole);
   return costOf(parameters, whole);
@@ -132,6 +122,7 @@ PlanCost wholeCost(const Parameters& parameters, const Plan& plan) {
 void fill(const Parameters& parameters, const PlanRequest& request, Plan* plan) {
   plan->request = request;
   plan->tables = request.tables;
+  plan->view = request.view;
   plan::decideEffects(parameters, plan);
   plan::applyEffects(parameters, plan);
   plan::decideQuality(parameters, plan);
@@ -183,11 +174,16 @@ Status makePlan(const Parameters& parameters, const PlanRequest& request, Plan* 
 }
 
 VisibilityFlags visibleFrom(const Parameters& parameters, Projection projection,
-                            const SkyDraw& draw) {
-  ViewDesc view;
-  view.projection = projection;
+                            const FrameDesc& frame) {
+  constexpr VisibilityFlags kAnything =
+      kVisibleSky | kVisibleGround | kVisibleSpace | kVisibleSun;
+  PictureDesc picture;
+  picture.projection = projection;
+  const FrameState state =
+      view::frameState(frame, projection, parameters.solarIrradiance, frame.sceneDepth.extent);
+  if (!sky::drawable(projection, state)) return kAnything;
   VisibilityFlags visible = 0;
-  const sky::Parts parts = sky::cut(parameters, view, draw);
+  const sky::Parts parts = sky::cut(parameters, picture, state);
   for (uint32_t i = 0; i < parts.count; ++i) {
     const sky::Visible& v = parts.parts[i].visible;
     if (v.air) visible |= kVisibleSky;

@@ -1,100 +1,90 @@
-// Views of the public API.
+// Views of the public API: argument checks, then the view room.
 #include <alpenglow/view.h>
 
 #include "atmosphere/api/context_impl.h"
-#include "atmosphere/model/sentence.h"
-#include "atmosphere/model/solvers.h"
-#include "atmosphere/shafts/shaft_pass.h"
-#include "atmosphere/sky/sky_pass.h"
+#include "atmosphere/view/view.h"
 
 namespace alpenglow {
 inline namespace v1 {
 namespace {
 
-/// Shadows of another picture would be read as this one's.
-Status checkShafts(const Context& context, const ViewDesc& desc) {
-  if (desc.shafts == nullptr) return Status::Ok;
-  const ShaftsDesc& shafts = desc.shafts->desc();
-  const SceneDepth &a = shafts.sceneDepth, &b = desc.sceneDepth;
-  const bool same = a.view == b.view && a.format == b.format && a.layout == b.layout &&
-                    a.extent.width == b.extent.width && a.extent.height == b.extent.height &&
-                    shafts.depth == desc.depth && shafts.projection == desc.projection &&
-                    shafts.without == desc.without;
-  if (same && desc.solver == Solver::Moments && &desc.shafts->resources() == context.bake)
-    return Status::Ok;
-  model::Sentence why;
-  if (desc.solver != Solver::Moments) {
-    why << "are for a view of Solver::" << solverEnumerator(desc.solver);
-  } else {
-    why << (&desc.shafts->resources() != context.bake ? "are of another context"
-                                                      : "were made for another picture");
+Status nullCall(const View* view, const char* call) {
+  if (view == nullptr) return Status::InvalidArgument;
+  return view->resources().device().fail(Status::InvalidArgument, VK_SUCCESS,
+                                         "%s got a null argument, but needs all of them.", call);
+}
+
+/// Each capability that the description needs.
+Status requireCapabilities(const Context& context, const ViewDesc& desc) {
+  Status status = requireCapability(context, kCapabilitySky, "createView");
+  if (status == Status::Ok && desc.aerialPerspective != AerialPerspective::Off) {
+    status = requireCapability(context, kCapabilityAir,
+                               "createView with ViewDesc::aerialPerspective");
   }
-  return context.device->fail(
-      Status::InvalidArgument, VK_SUCCESS,
-      "ViewDesc::shafts %s, but a view needs shafts of its own context, made for its sceneDepth, "
-      "depth, projection and without, and Solver::Moments.",
-      why.text());
-}
-
-/// What the sky room may know of them.
-sky::ShaftSet shaftSetOf(const Shafts* shafts) {
-  if (shafts == nullptr) return {};
-  const ShaftsDesc& desc = shafts->desc();
-  return {shafts->setLayout(), shafts->set(), static_cast<uint32_t>(desc.method), desc.samples,
-          static_cast<float>(desc.multipleLoss)};
-}
-
-/// Ok, or a sentence when a view would draw with another frame's shadows.
-Status checkRecorded(const View& view, const Tables& tables, const SkyDraw& draw) {
-  const Shafts* shafts = view.desc().shafts;
-  if (shafts == nullptr || shafts->serves(tables, draw)) return Status::Ok;
-  return view.resources().device().fail(
-      Status::InvalidArgument, VK_SUCCESS,
-      "The view draws light shafts, but recordShafts was not called last for this draw's tables, "
-      "camera, sun and viewport.");
+  if (status == Status::Ok && desc.lightShafts.method != LightShaftMethod::Off)
+    status = requireCapability(context, kCapabilityShafts, "createView with ViewDesc::lightShafts");
+  if (status == Status::Ok && desc.lightShafts.method == LightShaftMethod::ShadowVolume) {
+    status = requireCapability(context, kCapabilityShadowVolumes,
+                               "createView with LightShaftMethod::ShadowVolume");
+  }
+  return status;
 }
 
 }  // namespace
 
-Status createView(Context* context, const ViewDesc& desc, View** out) {
-  if (context == nullptr || out == nullptr) return Status::InvalidArgument;
-  *out = nullptr;
-  Status status = requireCapability(*context, kCapabilitySky, "createView");
-  if (status == Status::Ok) status = sky::checkViewDesc(*context->device, desc);
-  if (status == Status::Ok && desc.sceneDepth.view != VK_NULL_HANDLE)
-    status = requireCapability(*context, kCapabilityAir, "createView with ViewDesc::sceneDepth");
-  if (status == Status::Ok) status = checkShafts(*context, desc);
-  if (status != Status::Ok) return status;
-  return View::create(*context->bake, desc, shaftSetOf(desc.shafts), out);
+Status createView(Context* context, const Tables* tables, const ViewDesc& desc, View** out) {
+  if (out != nullptr) *out = nullptr;
+  if (context == nullptr || tables == nullptr || out == nullptr)
+    return nullArgument(context, "createView");
+  if (&tables->resources() != context->bake) {
+    return context->device->fail(Status::InvalidArgument, VK_SUCCESS,
+                                 "createView got tables of another context, but needs tables of its "
+                                 "own.");
+  }
+  Status status = requireCapabilities(*context, desc);
+  if (status == Status::Ok)
+    status = view::checkViewDesc(*context->device, tables->desc(), desc);
+  return status == Status::Ok ? View::create(*context->bake, *tables, desc, out) : status;
 }
 
 void destroyView(View* view) {
   if (view != nullptr) View::destroy(view, view->resources().device().submitting());
 }
 
-Status recordSkySlice(View* view, VkCommandBuffer commands,
-                      const Tables* tables, const SkyDraw& draw) {
-  if (view == nullptr || tables == nullptr || commands == VK_NULL_HANDLE)
-    return Status::InvalidArgument;
-  return view->recordSlice(commands, *tables, draw);
+Status beginFrame(View* view, const FrameDesc& desc, FrameWork* work) {
+  return view == nullptr ? Status::InvalidArgument : view->beginFrame(desc, work);
 }
 
-Status recordSky(View* view, VkCommandBuffer commands, const Tables* tables,
-                 const SkyDraw& draw) {
-  if (view == nullptr || tables == nullptr || commands == VK_NULL_HANDLE)
-    return Status::InvalidArgument;
-  Status status = view->checkRecord(*tables, draw, "recordSky");
-  if (status == Status::Ok) status = checkRecorded(*view, *tables, draw);
-  return status == Status::Ok ? view->recordSky(commands, *tables, draw) : status;
+Status recordLuts(View* view, VkCommandBuffer commands) {
+  if (view == nullptr || commands == VK_NULL_HANDLE) return nullCall(view, "recordLuts");
+  return view->recordLuts(commands);
 }
 
-Status recordAir(View* view, VkCommandBuffer commands, const Tables* tables,
-                 const SkyDraw& draw) {
-  if (view == nullptr || tables == nullptr || commands == VK_NULL_HANDLE)
-    return Status::InvalidArgument;
-  Status status = view->checkRecord(*tables, draw, "recordAir");
-  if (status == Status::Ok) status = checkRecorded(*view, *tables, draw);
-  return status == Status::Ok ? view->recordAir(commands, *tables, draw) : status;
+Status recordShadowMap(View* view, VkCommandBuffer commands) {
+  if (view == nullptr || commands == VK_NULL_HANDLE) return nullCall(view, "recordShadowMap");
+  return view->recordShadowMap(commands);
+}
+
+Status recordLightShafts(View* view, VkCommandBuffer commands) {
+  if (view == nullptr || commands == VK_NULL_HANDLE) return nullCall(view, "recordLightShafts");
+  return view->recordLightShafts(commands);
+}
+
+Status recordAerialPerspective(View* view, VkCommandBuffer commands) {
+  if (view == nullptr || commands == VK_NULL_HANDLE)
+    return nullCall(view, "recordAerialPerspective");
+  return view->recordAerialPerspective(commands);
+}
+
+Status recordSky(View* view, VkCommandBuffer commands) {
+  if (view == nullptr || commands == VK_NULL_HANDLE) return nullCall(view, "recordSky");
+  return view->recordSky(commands);
+}
+
+Status viewInfo(const View* view, ViewInfo* out) {
+  if (view == nullptr || out == nullptr) return nullCall(view, "viewInfo");
+  view->info(out);
+  return Status::Ok;
 }
 
 }  // namespace v1

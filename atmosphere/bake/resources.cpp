@@ -50,9 +50,10 @@ const VkDescriptorSetLayoutBinding* Resources::outputLayoutBindings() {
   return kOutputLayoutBindings;
 }
 
-Status Resources::create(engine::Device& device, LiveObjects& live, Resources** out) {
+Status Resources::create(engine::Device& device, VkShaderStageFlags setStages,
+                         Resources** out) {
   *out = nullptr;
-  auto* resources = new (std::nothrow) Resources(device, live);
+  auto* resources = new (std::nothrow) Resources(device, setStages);
   if (resources == nullptr) {
     return device.fail(Status::OutOfHostMemory, VK_SUCCESS,
                        "The bake's shared objects found no host memory.");
@@ -67,8 +68,11 @@ Status Resources::create(engine::Device& device, LiveObjects& live, Resources** 
 }
 
 Status Resources::makeLayouts() {
-  Status status = engine::createSetLayout(device_, kTableLayoutBindings, kTableBindings,
-                                          "Alpenglow tables", &tableLayout_);
+  VkDescriptorSetLayoutBinding bindings[kTableBindings];
+  std::copy_n(kTableLayoutBindings, kTableBindings, bindings);
+  for (VkDescriptorSetLayoutBinding& binding : bindings) binding.stageFlags |= setStages_;
+  Status status = engine::createSetLayout(device_, bindings, kTableBindings, "Alpenglow tables",
+                                          &tableLayout_);
   if (status != Status::Ok) return status;
   status = engine::createSetLayout(device_, kInputLayoutBindings, kInputBindings,
                                    "Alpenglow bake inputs", &inputLayout_);

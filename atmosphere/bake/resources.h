@@ -2,12 +2,12 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <compare>
 #include <map>
 #include <mutex>
 #include <utility>
 
-#include "atmosphere/bake/live_objects.h"
 #include "atmosphere/bake/plan.h"
 #include "engine/descriptors.h"
 #include "engine/pipeline.h"
@@ -29,10 +29,13 @@ TableFormat finestFormat(const engine::Device& device, TableFormat otherwise);
 /// Made with the context, destroyed with it. Thread-safe.
 class Resources {
  public:
-  static Status create(engine::Device& device, LiveObjects& live, Resources** out);
+  /// `setStages`: of the host's shaders that bind our sets, besides compute and fragment.
+  static Status create(engine::Device& device, VkShaderStageFlags setStages, Resources** out);
   static void destroy(Resources* resources);
 
   engine::Device& device() const { return device_; }
+  /// Of the host's shaders, and ours, that bind the sets of alpenglow/view.h.
+  VkShaderStageFlags setStages() const { return setStages_; }
   VkDescriptorSetLayout tableLayout() const { return tableLayout_; }
   VkDescriptorSetLayout inputLayout() const { return inputLayout_; }
   VkDescriptorSetLayout outputLayout() const { return outputLayout_; }
@@ -48,12 +51,14 @@ class Resources {
   /// The pipeline of a stage; made at the first call for its shader and constants, and kept.
   Status pipeline(const Stage& stage, VkPipeline* out);
 
-  /// Of the context; counted up and down by what is made on it.
-  LiveObjects& live() const { return live_; }
+  /// A number for tables: an address may come again, an id never.
+  uint64_t nextTablesId() { return ++tablesMade_; }
   Context* context = nullptr;  ///< Whose these are.
 
  private:
-  Resources(engine::Device& device, LiveObjects& live) : device_(device), live_(live) {}
+  Resources(engine::Device& device, VkShaderStageFlags setStages)
+      : device_(device),
+        setStages_(setStages | VK_SHADER_STAGE_COMPUTE_BIT | VK_SHADER_STAGE_FRAGMENT_BIT) {}
   Status makeLayouts();
 
   struct Key {
@@ -65,7 +70,8 @@ class Resources {
   };
 
   engine::Device& device_;
-  LiveObjects& live_;
+  VkShaderStageFlags setStages_;
+  std::atomic<uint64_t> tablesMade_{0};
   VkDescriptorSetLayout tableLayout_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout inputLayout_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout outputLayout_ = VK_NULL_HANDLE;

@@ -11,7 +11,7 @@ Tables::Tables(bake::Resources& resources, const Parameters& parameters, const T
     : FrameObject(resources.device().frames()),
       resources_(resources),
       device_(resources.device()),
-      id_(++resources.live().tablesMade),
+      id_(resources.nextTablesId()),
       parameters_(parameters),
       desc_(desc),
       bakes_(bakes) {}
@@ -24,7 +24,6 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
   if (tables == nullptr) {
     return device.fail(Status::OutOfHostMemory, VK_SUCCESS, "Tables found no host memory.");
   }
-  ++resources.live().tables;
   Status status = Status::Ok;
   try {
     tables->plan_ = plan(parameters, desc, bake::finestFormat(device, desc.format));
@@ -50,7 +49,6 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
 
 void Tables::destroy(Tables* tables, uint64_t frame) {
   if (tables == nullptr) return;
-  --tables->resources_.live().tables;
   engine::Device& device = tables->device_;
   device.deletions().defer(frame, VK_OBJECT_TYPE_DESCRIPTOR_POOL,
                            engine::handleNumber(tables->pool_));
@@ -60,6 +58,7 @@ void Tables::destroy(Tables* tables, uint64_t frame) {
   for (engine::MemoryBlock* block : {&tables->persistentBlock_, &tables->scratchBlock_,
                                      &tables->uniformBlock_, &tables->hostBlock_})
     engine::deferBlock(device, frame, block);
+  device.frames().announceDestruction(tables);
   delete tables;
   device.deletions().collect(device.completed());
 }

@@ -80,7 +80,7 @@ double errorOf(const Parameters& parameters, const Plan& plan, uint32_t level) {
     const double factor = air.known ? 1.0 : kUnknown[band];
     worst = std::max(worst, air.measured->percent[level][band] * factor);
   }
-  return (worst + (plan.skySlice ? kSlice[level] : 0.0)) / 100.0;
+  return (worst + (drawsFromLut(plan) ? kSlice[level] : 0.0)) / 100.0;
 }
 
 double percent(double share) { return std::round(share * 1e4) / 100.0; }
@@ -152,10 +152,10 @@ void describeOrders(uint32_t solved, Plan* plan) {
 
 void describeSlice(Plan* plan) {
   model::Sentence value, why;
-  value << (plan->skySlice ? "on" : "off");
-  if (plan->skySlice) {
+  value << (drawsFromLut(*plan) ? "on" : "off");
+  if (drawsFromLut(*plan)) {
     why << "A frame has more pixels than the slice has rays, so light is looked up in it.";
-  } else if (plan->request.projection == Projection::Orthographic) {
+  } else if (plan->request.view.projection == Projection::Orthographic) {
     why << "Each ray of an orthographic camera has an observer of its own.";
   } else {
     why << "This solver makes no slice for cameras above the air.";
@@ -164,10 +164,10 @@ void describeSlice(Plan* plan) {
 }
 
 void describeShafts(Plan* plan) {
-  if (!plan->shafts) return;
+  if (!drawsShafts(*plan)) return;
   model::Sentence value, why;
   constexpr const char* kMethods[] = {"exact", "paper", "march"};
-  value << kMethods[static_cast<uint32_t>(plan->shaftMethod)];
+  value << kMethods[static_cast<uint32_t>(plan->view.lightShafts.method) - 1];
   why << "Exact shafts take any casters and no samples along a ray.";
   addChoice(plan, "shafts", value, why);
 }

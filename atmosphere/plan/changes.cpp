@@ -14,7 +14,7 @@ using plan::isOn;
 bool coversCamera(const Plan& plan, const PlanRequest& request) {
   const double most = plan.request.altitudeTo_m;
   const bool higher = request.altitudeTo_m == 0.0 || request.altitudeTo_m > most;
-  return (most == 0.0 || !higher) && request.projection == plan.request.projection;
+  return (most == 0.0 || !higher) && request.view.projection == plan.request.view.projection;
 }
 
 bool coversSun(const Plan& plan, const PlanRequest& request) {
@@ -107,18 +107,18 @@ const char* tableChange(const Plan& has, const Plan& asked) {
 }
 
 const char* viewChange(const Plan& has, const Plan& asked) {
-  if (has.request.projection != asked.request.projection) return "The view has another projection.";
-  if ((has.viewWithout & ~asked.viewWithout & kViewEffects) != 0)
+  if (has.request.view.projection != asked.request.view.projection) return "The view has another projection.";
+  if ((has.view.disabledEffects & ~asked.view.disabledEffects & kViewEffects) != 0)
     return "The view is without an effect that is on now.";
-  if (asked.sceneDepth && !has.sceneDepth) return "The view draws no air before a scene.";
-  if (has.skySlice && !asked.skySlice) return "The view draws from a slice alone.";
+  if (plan::drawsAerial(asked) && !plan::drawsAerial(has)) return "The view draws no air before a scene.";
+  if (plan::drawsFromLut(has) && !plan::drawsFromLut(asked)) return "The view draws from a slice alone.";
   return nullptr;
 }
 
 const char* shaftChange(const Plan& has, const Plan& asked) {
-  if (!asked.shafts) return nullptr;
-  if (!has.shafts) return "Light shafts are on now.";
-  if (has.shaftMethod != asked.shaftMethod) return "Light shafts have another method.";
+  if (!plan::drawsShafts(asked)) return nullptr;
+  if (!plan::drawsShafts(has)) return "Light shafts are on now.";
+  if (has.view.lightShafts.method != asked.view.lightShafts.method) return "Light shafts have another method.";
   return nullptr;
 }
 

@@ -38,11 +38,11 @@ ImageInfo shadowMapImage() {
 
 PlanCost shaftCost(const Plan& plan) {
   PlanCost cost;
-  if (!plan.shafts) return cost;
+  if (!drawsShafts(plan)) return cost;
   cost.images = 1;
   cost.texels = uint64_t{kSunMapSize} * kSunMapSize;
   cost.bytes = shadowMapImage().bytes;
-  cost.pipelines = 3 + (plan.skySlice ? 1 : 0);
+  cost.pipelines = 3 + (drawsFromLut(plan) ? 1 : 0);
   cost.dispatches = 1;
   return cost;
 }

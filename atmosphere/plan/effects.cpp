@@ -151,7 +151,7 @@ class Decider {
     ground << "The ground " << (sees(request_, kVisibleGround) ? "may come" : "doesn't come")
            << " into view.";
     set(Effect::Ground, sees(request_, kVisibleGround), ground);
-    if (request_.projection == Projection::Orthographic && !on(Effect::Ground)) {
+    if (request_.view.projection == Projection::Orthographic && !on(Effect::Ground)) {
       model::Sentence why;
       why << "Rays of an orthographic camera may end on the ground.";
       write(Effect::Ground, true, false, why);
@@ -165,7 +165,7 @@ class Decider {
       disc << "The sun doesn't come into view.";
     }
     set(Effect::SunDisc, drawn, disc);
-    if (request_.projection == Projection::Fisheye) {
+    if (request_.view.projection == Projection::Fisheye) {
       impossible(Effect::AerialPerspective,
                  "A fisheye view has no depth image: a host's scene is drawn as triangles.");
       return;
@@ -202,7 +202,7 @@ class Decider {
 
   void space() {
     const bool high = mayBeInSpace(air_, request_);
-    if (request_.projection == Projection::Orthographic && !high) {
+    if (request_.view.projection == Projection::Orthographic && !high) {
       model::Sentence why;
       why << "Rays of an orthographic camera may begin above the air.";
       write(Effect::SpaceViews, true, false, why);
@@ -290,7 +290,7 @@ void applyEffects(const Parameters& parameters, Plan* plan) {
     if (!plan->choices[i].on) without |= effectBit(static_cast<Effect>(i));
   const bool moments = desc.solver == Solver::Moments;
   desc.disabledEffects = moments ? without & kTableEffects : base.disabledEffects;
-  plan->viewWithout = (without & kViewEffects) | desc.disabledEffects;
+  plan->view.disabledEffects = (without & kViewEffects) | desc.disabledEffects;
   if (moments && base.sunZenithFrom == 0.0 && base.sunZenithTo == 0.0) {
     constexpr double kRightAngle = 90.0 * kDegree;
     const SunRange suns = tableSuns(parameters, *plan);
@@ -300,15 +300,19 @@ void applyEffects(const Parameters& parameters, Plan* plan) {
     desc.sunZenithTo = any ? 0.0 : std::clamp(kRightAngle - suns.from, 1e-6, 2.0 * kRightAngle);
   }
   const bool slices = desc.solver == Solver::Standard || desc.solver == Solver::Hillaire;
-  plan->skySlice = plan->request.projection != Projection::Orthographic &&
-                   (moments || (slices && !on(Effect::SpaceViews)));
-  plan->sceneDepth = on(Effect::AerialPerspective);
-  plan->shafts = on(Effect::LightShafts);
+  plan->view.sky = (plan->request.view.projection != Projection::Orthographic &&
+                   (moments || (slices && !on(Effect::SpaceViews)))) ? SkyMethod::Lut : SkyMethod::Integrate;
+  if (!on(Effect::AerialPerspective)) plan->view.aerialPerspective = AerialPerspective::Off;
+  else if (plan->view.aerialPerspective == AerialPerspective::Off)
+    plan->view.aerialPerspective = AerialPerspective::On;
+  if (!on(Effect::LightShafts)) plan->view.lightShafts.method = LightShaftMethod::Off;
+  else if (plan->view.lightShafts.method == LightShaftMethod::Off)
+    plan->view.lightShafts.method = LightShaftMethod::LightVolume;
   plan->capabilities = kCapabilityBake | kCapabilitySky;
-  if (plan->sceneDepth) plan->capabilities |= kCapabilityAir;
-  if (plan->shafts) {
+  if (drawsAerial(*plan)) plan->capabilities |= kCapabilityAir;
+  if (drawsShafts(*plan)) {
     plan->capabilities |= kCapabilityShafts;
-    if (plan->shaftMethod == ShaftMethod::Paper) plan->capabilities |= kCapabilityShadowVolumes;
+    if (plan->view.lightShafts.method == LightShaftMethod::ShadowVolume) plan->capabilities |= kCapabilityShadowVolumes;
   }
 }
 

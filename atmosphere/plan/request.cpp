@@ -52,8 +52,8 @@ Status checkRequest(const PlanRequest& n, model::Sentence* why) {
   }
   if ((n.visible & ~kAllVisible) != 0)
     return wrong(why, "visible", n.visible, "bits of VisibilityFlag, or 0 for anything");
-  if (n.projection > Projection::Orthographic)
-    return wrong(why, "projection", static_cast<uint32_t>(n.projection), "at most 2");
+  if (n.view.projection > Projection::Orthographic)
+    return wrong(why, "projection", static_cast<uint32_t>(n.view.projection), "at most 2");
   for (uint32_t i = 0; i < kEffectCount; ++i) {
     if (n.effects[i] <= Force::Off) continue;
     *why << "PlanRequest::effects has " << static_cast<uint32_t>(n.effects[i]) << " for "

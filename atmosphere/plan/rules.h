@@ -48,6 +48,15 @@ bool limitsSun(const PlanRequest& request);
 bool mayBeInSpace(const Air& air, const PlanRequest& request);
 bool sees(const PlanRequest& request, VisibilityFlag what);
 
+/// What a plan's view draws.
+inline bool drawsFromLut(const Plan& plan) { return plan.view.sky == SkyMethod::Lut; }
+inline bool drawsAerial(const Plan& plan) {
+  return plan.view.aerialPerspective != AerialPerspective::Off;
+}
+inline bool drawsShafts(const Plan& plan) {
+  return plan.view.lightShafts.method != LightShaftMethod::Off;
+}
+
 /// Effects on or off, forced or not, and why.
 void decideEffects(const Parameters& parameters, Plan* plan);
 /// From the effects that are on: what tables and views are without, the range of suns, the slice.
@@ -66,7 +75,7 @@ PlanCost difference(const PlanCost& more, const PlanCost& less);
 /// Of the map from the sun; one draw of casters and the surface between light and shadow from
 /// tables and from an air volume, and the culling of its blocks.
 PlanCost shaftCost(const Plan& plan);
-/// ShaftsDesc::sunMapSize as it is left; images of the picture's size are the host's to tell.
+/// LightShaftDesc::shadowMapSize as it is left; images of the picture's size are the host's to tell.
 inline constexpr uint32_t kSunMapSize = 2048;
 ImageInfo shadowMapImage();
 double bakeSeconds(const PlanRequest& request, const PlanCost& cost);

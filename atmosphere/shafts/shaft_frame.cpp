@@ -24,7 +24,7 @@ void store(float out[4], const double xyz[3], double scale, double w) {
 }
 
 /// Half of a box's width along an axis.
-double halfWidth(const Box& box, const double axis[3]) {
+double halfWidth(const PlanetBox& box, const double axis[3]) {
   double sum = 0.0;
   for (const auto& half : box.halfAxes_m) sum += std::abs(dot(half, axis));
   return sum;

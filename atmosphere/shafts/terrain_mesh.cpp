@@ -253,10 +253,10 @@ class Extent {
     Vector center = origin;
     for (int i = 0; i < 3; ++i) {
       center = center + 0.5 * (least_[i] + most_[i]) * axes_[i];
-      const Vector half = 0.5 * (most_[i] - least_[i]) * axes_[i];
-      for (int k = 0; k < 3; ++k) box.halfAxes_m[i][k] = half[k];
+      box.halfExtents[i] = 0.5 * (most_[i] - least_[i]);
+      for (int k = 0; k < 3; ++k) box.axes[i][k] = axes_[i][k];
     }
-    for (int k = 0; k < 3; ++k) box.center_m[k] = center[k];
+    for (int k = 0; k < 3; ++k) box.center[k] = center[k];
     return box;
   }
 

@@ -1,12 +1,17 @@
-// Cameras and suns from angles, in the planet's frame.
-#include "atmosphere/sky/picture.h"
+// Cameras and sun directions from angles, and from and to matrices.
+#include <alpenglow/camera.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "atmosphere/model/sentence.h"
+#include "atmosphere/sky/projection.h"
+#include "atmosphere/sky/world.h"
+
 namespace alpenglow {
-inline namespace v1 {
 namespace {
+
+constexpr double kPi = 3.14159265358979323846;
 
 struct Frame {
   double up[3], north[3], east[3];
@@ -49,6 +54,77 @@ void sunDirection(double latitude, double longitude, double elevation, double az
     const double ahead = std::cos(azimuth) * f.north[i] + std::sin(azimuth) * f.east[i];
     direction[i] = std::cos(elevation) * ahead + std::sin(elevation) * f.up[i];
   }
+}
+
+inline namespace v1 {
+
+void placeWorld(const Parameters& planet, double latitude, double longitude, double altitude_m,
+                WorldAxes axes, World* world) {
+  if (world == nullptr) return;
+  const Frame f = localFrame(latitude, longitude);
+  const double r = planet.bottomRadius_m + altitude_m;
+  for (int i = 0; i < 3; ++i) world->origin_m[i] = r * f.up[i];
+  for (int i = 0; i < 3; ++i) {
+    const double e = f.east[i], n = f.north[i], u = f.up[i];
+    double x = i == 0, y = i == 1, z = i == 2;
+    switch (axes) {
+      case WorldAxes::EarthCentered:
+        break;
+      case WorldAxes::ZUp:
+        x = e, y = n, z = u;
+        break;
+      case WorldAxes::YUp:
+        x = e, y = u, z = -n;
+        break;
+      case WorldAxes::ZUpLeftHanded:
+        x = n, y = e, z = u;
+        break;
+      case WorldAxes::YUpLeftHanded:
+        x = e, y = u, z = n;
+        break;
+    }
+    world->axes[0][i] = x;
+    world->axes[1][i] = y;
+    world->axes[2][i] = z;
+  }
+}
+
+Camera cameraAt(const Parameters& planet, const World& world, double latitude, double longitude,
+                double altitude_m, double heading, double pitch, double roll) {
+  const EyeCamera eye =
+      cameraFromGeodetic(planet, latitude, longitude, altitude_m, heading, pitch, roll, 0.0);
+  const sky::Placement placement(world);
+  Camera camera;
+  placement.toWorld(eye.position_m, camera.position);
+  placement.directionToWorld(eye.forward, camera.forward);
+  placement.directionToWorld(eye.up, camera.up);
+  return camera;
+}
+
+void directionAt(const World& world, double latitude, double longitude, double elevation,
+                 double azimuth, double direction[3]) {
+  double planet[3];
+  sunDirection(latitude, longitude, elevation, azimuth, planet);
+  sky::Placement(world).directionToWorld(planet, direction);
+}
+
+Status clipFromCamera(Projection projection, DepthConvention depth, const Camera& camera,
+                      float matrix[16]) {
+  const VkExtent2D& size = camera.viewport.extent;
+  if (matrix == nullptr || projection == Projection::Fisheye || size.width == 0 ||
+      size.height == 0)
+    return Status::InvalidArgument;
+  FrameState state;
+  std::copy_n(camera.forward, 3, state.camera.forward);
+  std::copy_n(camera.up, 3, state.camera.up);
+  state.camera.fov = camera.fov != 0.0 ? camera.fov : kPi / 3.0;
+  state.camera.height_m = camera.height;
+  state.viewport = camera.viewport;
+  state.depth = {camera.nearPlane, camera.farPlane};
+  double m[16];
+  sky::clipFromCamera(projection, depth, state, m);
+  for (int i = 0; i < 16; ++i) matrix[i] = static_cast<float>(m[i]);
+  return Status::Ok;
 }
 
 }  // namespace v1

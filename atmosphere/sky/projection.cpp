@@ -54,14 +54,4 @@ void clipFromCamera(Projection projection, DepthConvention convention, const Fra
 
 }  // namespace sky
 
-inline namespace v1 {
-
-void clipFromCamera(Projection projection, DepthConvention convention, const FrameState& draw,
-                    float matrix[16]) {
-  double m[16];
-  sky::clipFromCamera(projection, convention, draw, m);
-  for (int i = 0; i < 16; ++i) matrix[i] = static_cast<float>(m[i]);
-}
-
-}  // namespace v1
 }  // namespace alpenglow

@@ -71,6 +71,18 @@ Status checkDirection(const engine::Device& device, const char* name, const doub
   return unit(direction) ? Status::Ok : refuse(device, name, direction, "a unit vector");
 }
 
+bool drawable(Projection projection, const FrameState& draw) {
+  const EyeCamera& c = draw.camera;
+  const double r2 = dot(c.position_m, c.position_m);
+  const bool fisheye = projection == Projection::Fisheye;
+  const bool lens = projection == Projection::Orthographic
+                        ? c.height_m > 0.0 && c.height_m < 1e9
+                        : c.fov > 0.0 && (fisheye ? c.fov <= 2.0 * kPi + 1e-9 : c.fov < kPi);
+  return r2 > 0.0 && r2 < 1e30 && unit(c.forward) && unit(c.up) &&
+         std::abs(dot(c.forward, c.up)) < 1e-4 && lens && unit(draw.sun.direction) &&
+         draw.viewport.extent.width > 0 && draw.viewport.extent.height > 0;
+}
+
 Status checkDraw(const engine::Device& device, Projection projection, const FrameState& draw) {
   const EyeCamera& c = draw.camera;
   const double r2 = dot(c.position_m, c.position_m);
@@ -110,7 +122,7 @@ SkyConstants makeConstants(const Parameters& parameters, const PictureDesc& desc
   const PictureEdges edges = pictureEdges(desc.projection, draw);
   const double pixel = pixelAngle(desc, draw);
   const double texel =
-      kPi * parameters.bottomRadius_m / std::max(1.0, double(desc.groundAlbedo.height));
+      kPi * parameters.bottomRadius_m / std::max(1.0, double(desc.groundAlbedo.extent.height));
   const bool parallel = desc.projection == Projection::Orthographic;
   const DrawnDisc disc = drawnDisc(parallel ? 0.0 : draw.sun.discRadius, pixel);
   const double scale = draw.radianceScale == 0.0 ? 1.0 : draw.radianceScale;

@@ -54,6 +54,8 @@ struct PictureSets {
 SkyConstants makeConstants(const Parameters& parameters, const PictureDesc& desc, const FrameState& draw);
 AirConstants makeAirConstants(const Parameters& parameters, const PictureDesc& desc,
                               const FrameState& draw);
+/// Whether parts can be cut for it: what checkDraw asks of a camera.
+bool drawable(Projection projection, const FrameState& draw);
 /// Ok, or a sentence that names the wrong field.
 Status checkDraw(const engine::Device& device, Projection projection, const FrameState& draw);
 Status checkDepthRange(const engine::Device& device, Projection projection,

@@ -19,46 +19,36 @@ ImageInfo imageOf(const char* name, const VkExtent3D& extent) {
   return info;
 }
 
-bool hasSlice(const PictureDesc& view, bool sliced) {
-  return sliced && view.projection != Projection::Orthographic;
-}
-
-bool hasVolume(const TableDesc& tables, const PictureDesc& view, bool sliced, bool air) {
-  return hasSlice(view, sliced) && air && tables.solver == Solver::Moments;
-}
-
 }  // namespace
 
-uint32_t viewImages(const TableDesc& tables, const PictureDesc& view, bool sliced, bool air,
+uint32_t viewImages(const TableDesc& tables, const PictureDesc& view,
                     ImageInfo out[kMaxViewImages]) {
   uint32_t count = 0;
-  if (hasSlice(view, sliced)) {
+  if (view.skyLut) {
     constexpr const char* kNames[] = {"sky slice", "sky slice Mie"};
-    for (uint32_t i = 0; i < SkySlice::countFor(tables, view.without); ++i)
-      out[count++] = imageOf(kNames[i], SkySlice::extentFor(tables, view.without));
+    for (uint32_t i = 0; i < SkySlice::countFor(tables, view.disabledEffects); ++i)
+      out[count++] = imageOf(kNames[i], SkySlice::extentFor(tables, view.disabledEffects));
   }
-  if (hasVolume(tables, view, sliced, air)) {
+  if (view.aerialLut) {
     for (uint32_t i = 0; i < AirVolume::kImages; ++i)
-      out[count++] = imageOf("air volume", AirVolume::extentFor(view.without));
+      out[count++] = imageOf("air volume", AirVolume::extentFor(view.disabledEffects));
   }
   return count;
 }
 
-PlanCost viewCost(const TableDesc& tables, const PictureDesc& view, bool sliced, bool air) {
+PlanCost viewCost(const TableDesc& tables, const PictureDesc& view) {
   PlanCost cost;
   ImageInfo images[kMaxViewImages];
-  cost.images = viewImages(tables, view, sliced, air, images);
+  cost.images = viewImages(tables, view, images);
   for (uint32_t i = 0; i < cost.images; ++i) {
     cost.bytes += images[i].bytes;
     cost.texels += images[i].bytes / kTexelBytes;
   }
-  const bool slice = hasSlice(view, sliced), volume = hasVolume(tables, view, sliced, air);
   const auto variants = static_cast<uint64_t>(std::ranges::count_if(
-      kCombinations, [&](const Visible& seen) { return drawn(view.without, seen); }));
-  const bool unsliced = !view.alwaysSliced;
-  cost.pipelines = variants * ((slice ? 1 : 0) + (unsliced ? 1 : 0)) + (slice ? 1 : 0);
-  if (air) cost.pipelines += (volume ? 2 : 0) + (unsliced || !volume ? 1 : 0);
-  cost.dispatches = (slice ? 1 : 0) + (volume ? 1 : 0);
+      kCombinations, [&](const Visible& seen) { return drawn(view.disabledEffects, seen); }));
+  cost.pipelines = variants * ((view.skyLut ? 1 : 0) + (view.onlyLut ? 0 : 1)) + (view.skyLut ? 1 : 0);
+  if (view.aerial) cost.pipelines += view.aerialLut ? 2 : 1;
+  cost.dispatches = (view.skyLut ? 1 : 0) + (view.aerialLut ? 1 : 0);
   return cost;
 }
 

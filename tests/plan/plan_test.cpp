@@ -168,7 +168,7 @@ TEST(Plan, TellsWhatChangesTakes) {
       {"sizes", [](PlanRequest* r) { r->tables.moments.nodesR = 20; }, kRecreateTables},
       {"quality", [](PlanRequest* r) { r->tables.quality = Quality::Ultra; },
        kRecreateTables | kRecreateView},
-      {"projection", [](PlanRequest* r) { r->projection = Projection::Fisheye; }, kRecreateView},
+      {"projection", [](PlanRequest* r) { r->view.projection = Projection::Fisheye; }, kRecreateView},
       {"scene", [](PlanRequest* r) { r->visible |= kVisibleScene; }, kRecreateView},
       {"casters",
        [](PlanRequest* r) {

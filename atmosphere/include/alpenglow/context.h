@@ -59,6 +59,9 @@ struct ContextDesc {
   Requirements enabled;                     ///< What the host really enabled on its device.
   const uint32_t* queueFamilies = nullptr;  ///< Families that will touch our images.
   uint32_t queueFamilyCount = 0;            ///< More than one makes images concurrent.
+  /// Stages of the host's shaders that bind our descriptor sets; 0: compute and fragment, which are
+  /// always among them.
+  VkShaderStageFlags setStages = 0;
   VkPipelineCache pipelineCache = VK_NULL_HANDLE;
   const VkAllocationCallbacks* allocator = nullptr;
   MemoryHooks memory;  ///< Copied. All zero: none.
@@ -107,6 +110,8 @@ struct ResourceReport {
   uint64_t peakBytes = 0;
   uint64_t dispatches = 0;
   uint64_t draws = 0;
+  uint64_t lutUpdates = 0, lutsSkipped = 0;  ///< Calls of recordLuts that recorded, that didn't need to.
+  uint64_t shadowMapUpdates = 0, shadowMapsSkipped = 0;  ///< Likewise, of recordShadowMap.
 };
 ALPENGLOW_API void resourceReport(const Context* context, ResourceReport* out);
 

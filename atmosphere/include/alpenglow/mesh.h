@@ -7,12 +7,6 @@
 namespace alpenglow {
 inline namespace v1 {
 
-/// A box of any orientation in the planet's frame, metres.
-struct Box {
-  double center_m[3] = {};
-  double halfAxes_m[3][3] = {};  ///< Three orthogonal vectors from the centre to the faces.
-};
-
 /// Triangles over the host's own vertices, which are read where they lie.
 struct MeshView {
   const float* positions = nullptr;   ///< x of the first vertex; y and z follow it.

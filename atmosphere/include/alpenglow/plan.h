@@ -3,21 +3,10 @@
 // and what it saves. Pure functions; no Vulkan call; thread-safe.
 #pragma once
 
-#include <alpenglow/shafts.h>
 #include <alpenglow/view.h>
 
 namespace alpenglow {
 inline namespace v1 {
-
-/// What may come into view. Bits.
-enum VisibilityFlag : uint32_t {
-  kVisibleSky = 1u << 0,
-  kVisibleGround = 1u << 1,  ///< The planet's own surface.
-  kVisibleScene = 1u << 2,   ///< The host's opaque scene, in a depth image.
-  kVisibleSpace = 1u << 3,   ///< Pixels whose rays meet no air.
-  kVisibleSun = 1u << 4,     ///< The sun's disc.
-};
-using VisibilityFlags = uint32_t;
 
 /// Auto: as the plan finds best.
 enum class Force : uint32_t { Auto, On, Off };
@@ -26,7 +15,8 @@ enum class Force : uint32_t { Auto, On, Off };
 struct PlanRequest {
   TableDesc
       tables;  ///< Values that are given (solver, orders, quality, sizes, format ...) are kept.
-  Projection projection = Projection::Perspective;  // Replaced by ViewDesc view.
+  /// Values that are given are kept: projection, formats, lightShafts, methods that are not the default.
+  ViewDesc view;
   double altitudeFrom_m = 0.0;                      ///< Of the camera.
   double altitudeTo_m = 0.0;                        ///< 0: no limit.
   /// Of the sun, seen from the camera's places and from the ground in view; radians. Both 0: any.
@@ -75,13 +65,9 @@ inline constexpr uint32_t kMaxPlanImages = 12;
 struct Plan {
   PlanRequest request;
   TableDesc tables;  ///< For createTables.
-  // Replaced by ViewDesc view:
-  EffectFlags viewWithout = 0;  ///< ViewDesc::without.
-  bool skySlice = false;        ///< ViewDesc::skySlice and alwaysSliced.
-  bool sceneDepth = false;      ///< ViewDesc::sceneDepth.
-  bool shafts = false;          ///< ViewDesc::shafts.
-  ShaftMethod shaftMethod = ShaftMethod::Exact;
-  // End of what is replaced.
+  /// For createView; the host adds its formats. `aerialPerspective` and `lightShafts.method` are Off
+  /// where the plan has them off.
+  ViewDesc view;
   CapabilityFlags capabilities = 0;  ///< What a context for it needs.
 
   double expectedError = 0.0;        ///< 95th percentile, of the worst band in the sun's range.
@@ -102,10 +88,10 @@ struct Plan {
 ALPENGLOW_API Status makePlan(const Parameters& parameters, const PlanRequest& request, Plan* out,
                               const DiagnosticSink& sink);
 
-/// What a draw may see of sky, ground, space and the sun's disc: conservative, as recordSky finds
-/// it. kVisibleScene is the host's to add.
+/// What a frame may show of sky, ground, space and the sun's disc: conservative, as recordSky finds
+/// it. kVisibleScene is the host's to add. Anything where the frame would be refused.
 ALPENGLOW_API VisibilityFlags visibleFrom(const Parameters& parameters, Projection projection,
-                                          const SkyDraw& draw);
+                                          const FrameDesc& frame);
 
 /// What a change of plans takes. Bits.
 enum RecreateFlag : uint32_t {

@@ -81,6 +81,13 @@ struct ImageState {
   VkAccessFlags2 access = VK_ACCESS_2_NONE;
 };
 
+/// A box of any orientation.
+struct Box {
+  double center[3] = {};
+  double halfExtents[3] = {};
+  double axes[3][3] = {};  ///< Orthonormal directions of the three half extents; 0: the frame's axes.
+};
+
 /// A range of device memory from the host's hook.
 struct MemoryRange {
   VkDeviceMemory memory = VK_NULL_HANDLE;
