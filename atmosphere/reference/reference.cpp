@@ -80,6 +80,19 @@ ReferenceAnswer evaluate(const PathTracer& tracer, const ProbeQuery& query,
   return answer;
 }
 
+constexpr const char* kName = "evaluateReference";
+
+Status checkCall(const ProbeQuery& query, const ReferenceOptions& options,
+                 const ReferenceAnswer* out, const DiagnosticSink& sink) {
+  if (out == nullptr) return model::reportNull(sink, kName, "the answer");
+  if (Status status = checkQuery(query, sink); status != Status::Ok) return status;
+  if (options.targetError >= 0.0) return Status::Ok;
+  model::Sentence why;
+  why << "ReferenceOptions::targetError is " << options.targetError
+      << ", but it must be above 0, or 0 for the default.";
+  return model::report(sink, Status::InvalidArgument, why);
+}
+
 ReferenceOptions completed(const ReferenceOptions& options) {
   ReferenceOptions full = options;
   if (full.targetError == 0.0) full.targetError = 1e-3;
@@ -108,20 +121,13 @@ void destroyReference(Reference* reference) { delete reference; }
 Status evaluateReference(const Reference* reference, const ProbeQuery& query,
                          const ReferenceOptions& options, ReferenceAnswer* out,
                          const DiagnosticSink& sink) {
-  constexpr const char* kName = "evaluateReference";
-  if (reference == nullptr) return model::reportNull(sink, kName, "the reference");
-  if (out == nullptr) return model::reportNull(sink, kName, "the answer");
-  if (Status status = reference::checkQuery(query, sink); status != Status::Ok) return status;
-  if (!(options.targetError >= 0.0)) {
-    return model::report(sink, Status::InvalidArgument,
-                         model::Sentence()
-                             << "ReferenceOptions::targetError is " << options.targetError
-                             << ", but it must be above 0, or 0 for the default.");
-  }
+  if (reference == nullptr) return model::reportNull(sink, reference::kName, "the reference");
+  if (Status status = reference::checkCall(query, options, out, sink); status != Status::Ok)
+    return status;
   try {
     *out = reference::evaluate(reference->tracer, query, reference::completed(options));
   } catch (const std::bad_alloc&) {
-    return reference::outOfMemory(sink, kName);
+    return reference::outOfMemory(sink, reference::kName);
   }
   return Status::Ok;
 }
@@ -130,7 +136,8 @@ Status evaluateReference(const Parameters& parameters, const ProbeQuery& query,
                          const ReferenceOptions& options, ReferenceAnswer* out,
                          const DiagnosticSink& sink) {
   Reference* prepared = nullptr;
-  Status status = createReference(parameters, &prepared, sink);
+  Status status = reference::checkCall(query, options, out, sink);  // Preparations take long.
+  if (status == Status::Ok) status = createReference(parameters, &prepared, sink);
   if (status == Status::Ok) status = evaluateReference(prepared, query, options, out, sink);
   destroyReference(prepared);
   return status;
