@@ -60,6 +60,7 @@ class QueryTest : public StandardSkyTest {
     EXPECT_EQ(advanceFrame(context(), next, next - 1), Status::Ok) << message();
   }
   uint64_t buffers() {
+    finishFrames();  // Those of tables that are gone go now.
     ResourceReport report;
     resourceReport(context(), &report);
     return report.buffers;

@@ -139,7 +139,7 @@ TEST_F(MomentsTest, TablesOfOrdersAreReadRightAfterTheirPass) {
   const auto status = [&](TableId id) { return readbackStatus(tables, id); };
   bake(tables, 0, "M 1");
   EXPECT_EQ(status(kTableOrderMoments), Status::NotReady);
-  EXPECT_NE(lastDiagnostic().find("\"N 1\""), std::string::npos) << lastDiagnostic();
+  EXPECT_TRUE(diagnostics().empty()) << lastDiagnostic();  // It is no error.
   EXPECT_EQ(status(kTableOrderScattering), Status::Unsupported);
   EXPECT_NE(lastDiagnostic().find("Solver::Standard"), std::string::npos) << lastDiagnostic();
   bake(tables, 0, "N 1");

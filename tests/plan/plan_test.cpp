@@ -165,7 +165,7 @@ TEST(Plan, TellsWhatChangesTakes) {
       {"solver", [](PlanRequest* r) { r->tables.solver = Solver::Standard; },
        kRecreateTables | kRecreateView},
       {"format", [](PlanRequest* r) { r->tables.format = TableFormat::Float; }, kRecreateTables},
-      {"sizes", [](PlanRequest* r) { r->tables.moments.nodesR = 20; }, kRecreateTables},
+      {"sizes", [](PlanRequest* r) { r->tables.sizes.nodesR = 20; }, kRecreateTables},
       {"quality", [](PlanRequest* r) { r->tables.quality = Quality::Ultra; },
        kRecreateTables | kRecreateView},
       {"projection", [](PlanRequest* r) { r->view.projection = Projection::Fisheye; }, kRecreateView},
@@ -212,8 +212,8 @@ TEST(Plan, RefusesTablesThatCanNotBeMade) {
          d->solver = Solver::Standard;
          d->orders = 10'000'000;
        }},
-      {"nodesR is 100000", [](TableDesc* d) { d->moments.nodesR = 100'000; }},
-      {"samples", [](TableDesc* d) { d->samples = 5; }},
+      {"nodesR is 100000", [](TableDesc* d) { d->sizes.nodesR = 100'000; }},
+      {"stepCount", [](TableDesc* d) { d->sizes.stepCount = 5; }},
       {"scatteringMu is 3",
        [](TableDesc* d) {
          d->solver = Solver::Standard;
@@ -224,7 +224,7 @@ TEST(Plan, RefusesTablesThatCanNotBeMade) {
          d->solver = Solver::Standard;
          d->sizes.transmittanceMu = ~0u;
        }},
-      {"azimuths is 2", [](TableDesc* d) { d->moments.azimuths = 2; }},
+      {"azimuths is 2", [](TableDesc* d) { d->sizes.azimuths = 2; }},
       {"solver 9", [](TableDesc* d) { d->solver = static_cast<Solver>(9); }},
       {"from 2 to 1", [](TableDesc* d) { d->sunZenithFrom = 2.0, d->sunZenithTo = 1.0; }},
   };
