@@ -35,4 +35,12 @@ inline Status recordLuts(View* view, VkCommandBuffer commands, const Tables* tab
   return status == Status::Ok ? alpenglow::recordLuts(view, commands) : status;
 }
 
+/// beginFrame and recordSky. Inside a rendering scope; a view with a sky-view LUT needs recordLuts of
+/// the same frame before.
+inline Status recordSky(View* view, VkCommandBuffer commands, const Tables* tables,
+                        const FrameState& state) {
+  const Status status = beginFrame(view, frameDesc(state, tables), nullptr);
+  return status == Status::Ok ? alpenglow::recordSky(view, commands) : status;
+}
+
 }  // namespace alpenglow::testing
