@@ -119,23 +119,21 @@ ResourceReport Bench::resources() {
 ViewPointer Bench::view(const Drawn& drawn) {
   ViewDesc desc;
   desc.colorFormat = kFormat;
-  desc.solver = drawn.desc.solver;
-  desc.mie = drawn.desc.mie;
-  desc.without = (drawn.desc.disabledEffects & kTableEffects) | drawn.viewWithout;
-  if (drawn.sliced) desc.skySlice = drawn.tables;
+  desc.disabledEffects = drawn.viewWithout;
+  desc.sky = drawn.sliced ? SkyMethod::Lut : SkyMethod::Integrate;
   View* made = nullptr;
-  if (createView(context_, desc, &made) != Status::Ok) throw Failure(error_);
+  if (createView(context_, drawn.tables, desc, &made) != Status::Ok) throw Failure(error_);
   return ViewPointer(made, ViewDeleter{device_.get()});
 }
 
-double Bench::frame(View* view, const Drawn& drawn, const SkyDraw& draw) {
+double Bench::frame(View* view, const FrameDesc& draw) {
   return run([&](VkCommandBuffer commands) {
-    Status status = Status::Ok;
-    if (drawn.sliced) status = recordSkySlice(view, commands, drawn.tables, draw);
+    Status status = beginFrame(view, draw, nullptr);
+    if (status == Status::Ok) status = recordLuts(view, commands);
     if (status != Status::Ok) return status;
     target_->prepare(commands);
-    target_->begin(commands, draw.viewport, VK_ATTACHMENT_LOAD_OP_DONT_CARE);
-    status = recordSky(view, commands, drawn.tables, draw);
+    target_->begin(commands, draw.cameras[0].viewport, VK_ATTACHMENT_LOAD_OP_DONT_CARE);
+    status = recordSky(view, commands);
     target_->end(commands);
     return status;
   });
@@ -153,42 +151,34 @@ io::LinearImage Bench::read(VkExtent2D size) {
   return image;
 }
 
-Status Bench::recordRays(VkCommandBuffer commands, View* view, const Drawn& drawn,
-                         const std::vector<SkyDraw>& draws) {
+Status Bench::recordRays(VkCommandBuffer commands, View* view,
+                         const std::vector<FrameDesc>& draws) {
   target_->prepare(commands);
-  const SkyDraw* sliced = nullptr;
   for (size_t i = 0; i < draws.size(); ++i) {
-    const SkyDraw& draw = draws[i];
-    // Neighbours share observer and sun; a slice serves all rays of both.
-    const bool same =
-        sliced != nullptr &&
-        std::equal(draw.camera.position_m, draw.camera.position_m + 3, sliced->camera.position_m) &&
-        std::equal(draw.sun.direction, draw.sun.direction + 3, sliced->sun.direction);
-    Status status = Status::Ok;
-    if (drawn.sliced && !same) {
-      status = recordSkySlice(view, commands, drawn.tables, draw);
-      sliced = &draw;
-    }
+    const FrameDesc& draw = draws[i];
+    // Neighbours share altitude and sun: their LUT is reused.
+    Status status = beginFrame(view, draw, nullptr);
+    if (status == Status::Ok) status = recordLuts(view, commands);
     if (status != Status::Ok) return status;
-    target_->begin(commands, draw.viewport,
+    target_->begin(commands, draw.cameras[0].viewport,
                    i == 0 ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD);
-    status = recordSky(view, commands, drawn.tables, draw);
+    status = recordSky(view, commands);
     target_->end(commands);
     if (status != Status::Ok) return status;
   }
   return Status::Ok;
 }
 
-std::vector<Spectrum> Bench::radiance(View* view, const Drawn& drawn, const Parameters& parameters,
+std::vector<Spectrum> Bench::radiance(View* view, const Parameters& parameters,
                                       const std::vector<ProbeQuery>& rays) {
   std::vector<Spectrum> result;
   const uint32_t width = target_->extent().width;
   for (size_t first = 0; first < rays.size(); first += width) {
     const size_t count = std::min<size_t>(rays.size() - first, width);
-    std::vector<SkyDraw> draws;
+    std::vector<FrameDesc> draws;
     for (size_t i = 0; i < count; ++i)
       draws.push_back(drawOfRay(parameters, rays[first + i], static_cast<int32_t>(i)));
-    run([&](VkCommandBuffer commands) { return recordRays(commands, view, drawn, draws); });
+    run([&](VkCommandBuffer commands) { return recordRays(commands, view, draws); });
     const io::LinearImage row = read({static_cast<uint32_t>(count), 1});
     for (size_t i = 0; i < count; ++i)
       result.push_back({{row.pixels[3 * i], row.pixels[3 * i + 1], row.pixels[3 * i + 2]}});
@@ -252,10 +242,10 @@ void Bench::upload(Tables* tables, TableId id, const std::vector<float>& rgba) {
   });
 }
 
-SkyDraw drawOfRay(const Parameters& parameters, const ProbeQuery& ray, int32_t x) {
-  SkyDraw draw;
-  Camera& camera = draw.camera;
-  camera.position_m[2] = parameters.bottomRadius_m + ray.altitude_m;
+FrameDesc drawOfRay(const Parameters& parameters, const ProbeQuery& ray, int32_t x) {
+  FrameDesc draw;
+  Camera& camera = draw.cameras[0];
+  camera.position[2] = parameters.bottomRadius_m + ray.altitude_m;
   const double sine = std::sin(ray.zenith), cosine = std::cos(ray.zenith);
   const double east = std::cos(ray.azimuth), north = std::sin(ray.azimuth);
   const double forward[3] = {sine * east, sine * north, cosine};
@@ -263,21 +253,19 @@ SkyDraw drawOfRay(const Parameters& parameters, const ProbeQuery& ray, int32_t x
   std::copy_n(forward, 3, camera.forward);
   std::copy_n(up, 3, camera.up);
   camera.fov = 1e-4;  // Of a single pixel, whose centre is the ray.
-  draw.sun.direction[0] = std::sin(ray.sunZenith);
-  draw.sun.direction[2] = std::cos(ray.sunZenith);
-  draw.sun.irradiance = {{1.0, 1.0, 1.0}};
-  draw.viewport = {{x, 0}, {1, 1}};
+  draw.lights[0].direction[0] = std::sin(ray.sunZenith);
+  draw.lights[0].direction[2] = std::cos(ray.sunZenith);
+  draw.cameras[0].viewport = {{x, 0}, {1, 1}};
   return draw;
 }
 
-SkyDraw drawOfView(const Parameters& parameters, double altitude_m, double sun, double azimuth,
+FrameDesc drawOfView(const Parameters& parameters, double altitude_m, double sun, double azimuth,
                    double pitch, double fov, VkExtent2D size) {
-  SkyDraw draw;
-  draw.camera = cameraFromGeodetic(parameters, 0.0, 0.0, altitude_m, 0.0, pitch * kDegree, 0.0,
+  FrameDesc draw;
+  draw.cameras[0] = cameraFromGeodetic(parameters, 0.0, 0.0, altitude_m, 0.0, pitch * kDegree, 0.0,
                                    fov * kDegree);
-  sunDirection(0.0, 0.0, sun * kDegree, azimuth * kDegree, draw.sun.direction);
-  draw.sun.irradiance = {{1.0, 1.0, 1.0}};
-  draw.viewport = {{0, 0}, size};
+  sunDirection(0.0, 0.0, sun * kDegree, azimuth * kDegree, draw.lights[0].direction);
+  draw.cameras[0].viewport = {{0, 0}, size};
   return draw;
 }
 

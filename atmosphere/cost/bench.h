@@ -67,11 +67,11 @@ class Bench {
   /// A view, in a rendering scope of the target's format. Throws.
   ViewPointer view(const Drawn& drawn);
   /// Seconds of a frame: the slice, if any, and the sky over the whole target.
-  double frame(View* view, const Drawn& drawn, const SkyDraw& draw);
+  double frame(View* view, const FrameDesc& draw);
   /// What the target holds after it.
   io::LinearImage read(VkExtent2D size);
   /// Total radiance of rays that go on to the ground or to space, in a pixel each.
-  std::vector<Spectrum> radiance(View* view, const Drawn& drawn, const Parameters& parameters,
+  std::vector<Spectrum> radiance(View* view, const Parameters& parameters,
                                  const std::vector<ProbeQuery>& rays);
   /// A copy of a table, RGBA.
   std::vector<float> readTable(Tables* tables, TableId id, ImageInfo* info);
@@ -84,8 +84,7 @@ class Bench {
   void upload(Tables* tables, TableId id, const std::vector<float>& rgba);
   void advance();  ///< All that was recorded has completed.
   double run(const std::function<Status(VkCommandBuffer)>& record);
-  Status recordRays(VkCommandBuffer commands, View* view, const Drawn& drawn,
-                    const std::vector<SkyDraw>& draws);
+  Status recordRays(VkCommandBuffer commands, View* view, const std::vector<FrameDesc>& draws);
   void describeDriver();
 
   std::unique_ptr<headless::Device> device_;
@@ -96,9 +95,9 @@ class Bench {
 };
 
 /// The draw of a ray as a probe has it: a camera that looks along it, with a narrow field of view.
-SkyDraw drawOfRay(const Parameters& parameters, const ProbeQuery& ray, int32_t x);
+FrameDesc drawOfRay(const Parameters& parameters, const ProbeQuery& ray, int32_t x);
 /// A camera above latitude 0, longitude 0, with the sun `azimuth` off its heading; degrees.
-SkyDraw drawOfView(const Parameters& parameters, double altitude_m, double sun, double azimuth,
+FrameDesc drawOfView(const Parameters& parameters, double altitude_m, double sun, double azimuth,
                    double pitch, double fov, VkExtent2D size);
 
 }  // namespace alpenglow::cost

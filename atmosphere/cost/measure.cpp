@@ -157,7 +157,7 @@ void Sweep::timeFrames(View* view, const Drawn& drawn, const Configuration& conf
     const Look& look = kViews[i];
     if (look.altitude_m > 6e4 && groundOnly) continue;
     const double sun = configuration.onlySun_deg != 0.0 ? configuration.onlySun_deg : look.sun;
-    const SkyDraw draw = drawOfView(all_.set.parameters, look.altitude_m, sun, look.azimuth,
+    const FrameDesc draw = drawOfView(all_.set.parameters, look.altitude_m, sun, look.azimuth,
                                     look.pitch, look.fov, {options_.width, options_.height});
     std::vector<double> times;
     bench_.frame(view, drawn, draw);
@@ -220,9 +220,9 @@ void Sweep::fill(const Configuration& configuration, bool pictured, Row* filled)
 std::vector<io::LinearImage> Sweep::pictures(View* view, const Drawn& drawn) {
   std::vector<io::LinearImage> result;
   for (const Look& look : kScenes) {
-    SkyDraw draw = drawOfView(all_.set.parameters, look.altitude_m, look.sun, look.azimuth,
+    FrameDesc draw = drawOfView(all_.set.parameters, look.altitude_m, look.sun, look.azimuth,
                               look.pitch, look.fov, kPicture);
-    draw.sun.discRadius = 0.2667 * std::numbers::pi / 180.0;
+    draw.lights[0].discRadius = 0.2667 * std::numbers::pi / 180.0;
     bench_.frame(view, drawn, draw);
     result.push_back(bench_.read(kPicture));
   }

@@ -64,8 +64,7 @@ Measured draw(io::Scene scene, const Method& method, const std::string& device, 
       plan.capabilities | choice.needs() | kCapabilityBake | kCapabilitySky | kCapabilityAir,
       choice.wishes());
   const PictureTarget target = createPictureTarget(&session, scene.width, scene.height);
-  std::optional<ShaftsDesc> shafts = describeShafts(choice, session);
-  if (shafts) shafts->without = plan.viewWithout;
+  LightShaftDesc shafts = describeShafts(choice, session);
   TableRequest request;
   request.desc = plan.tables;
   const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));

@@ -6,37 +6,42 @@ namespace alpenglow::cli {
 Painter::Painter(Session* session, const io::Scene& scene, const io::AlbedoMap* albedo,
                  const ReadyTables& tables, const Plan& plan, Scenery* scenery)
     : session_(session), gpu_(session->gpu()), scenery_(scenery), solver_(tables.desc.solver) {
-  ViewDesc desc;
+  ViewDesc desc = plan.view;
   desc.colorFormat = kPictureFormat;
-  desc.projection = samples::projectionOf(scene.camera);
-  samples::describeView(plan, &desc);
-  // Where a slice can't be recorded, recordSky reads the tables.
-  desc.skySlice = tables.tables.get();
+  // Where a frame can have no LUT, the view reads the tables.
+  desc.sky = SkyMethod::Lut;
   if (albedo != nullptr) {
     sampler_ = gpu_.sampler(VK_SAMPLER_ADDRESS_MODE_REPEAT);
     albedo_ = gpu_.texture(*albedo);
-    desc.groundAlbedo = {albedo_.view(), sampler_.get(), samples::kSampled.layout,
-                         albedo_.extent().width, albedo_.extent().height};
+    desc.groundAlbedo = {albedo_.view(), samples::kSampled.layout, albedo_.extent(),
+                         sampler_.get()};
   }
-  if (scenery != nullptr) scenery->describe(&desc);
+  if (scenery != nullptr) {
+    scenery->describe(&desc);
+  } else {
+    desc.aerialPerspective = AerialPerspective::Off;  // There is no scene.
+    desc.lightShafts.method = LightShaftMethod::Off;
+  }
   View* made = nullptr;
-  session->check(createView(session->context(), desc, &made));
+  session->check(createView(session->context(), tables.tables.get(), desc, &made));
   view_ = ViewPointer(made, ViewDeleter{session});
+  if (scenery != nullptr) scenery->follow(made);
 }
 
-void Painter::drawPlain(const Tables* tables, const SkyDraw& draw, const headless::Image& target,
+void Painter::drawPlain(const FrameDesc& draw, const headless::Image& target,
                         const RecordFn& stars) {
   const auto render = [&](VkCommandBuffer commands, VkAttachmentLoadOp load,
                           const std::function<void()>& record) {
     const bool first = load == VK_ATTACHMENT_LOAD_OP_CLEAR;
     gpu_.barrier(commands, target, first ? samples::kUndefined : samples::kColorDrawn,
                  samples::kColorDrawn);
-    gpu_.render(commands, target, draw.viewport, load, nullptr, record);
+    gpu_.render(commands, target, draw.cameras[0].viewport, load, nullptr, record);
   };
   session_->run([&](VkCommandBuffer commands) {
-    session_->check(recordSkySlice(view_.get(), commands, tables, draw));
+    session_->check(beginFrame(view_.get(), draw, nullptr));
+    session_->check(recordLuts(view_.get(), commands));
     render(commands, VK_ATTACHMENT_LOAD_OP_CLEAR,
-           [&] { session_->check(recordSky(view_.get(), commands, tables, draw)); });
+           [&] { session_->check(recordSky(view_.get(), commands)); });
     return "sky";
   });
   if (!stars) return;
@@ -48,7 +53,8 @@ void Painter::drawPlain(const Tables* tables, const SkyDraw& draw, const headles
 
 io::LinearImage Painter::draw(const io::Scene& scene, const Tables* tables,
                               const PictureTarget& target) {
-  const SkyDraw draw = samples::describeDraw(scene);
+  FrameDesc draw = samples::describeDraw(scene);
+  draw.tables = tables;
   RecordFn stars;
   if (scene.stars) {
     if (!stars_) {
@@ -63,7 +69,7 @@ io::LinearImage Painter::draw(const io::Scene& scene, const Tables* tables,
   if (scenery_ != nullptr) {
     scenery_->draw(view_.get(), tables, draw, target.image, stars);
   } else {
-    drawPlain(tables, draw, target.image, stars);
+    drawPlain(draw, target.image, stars);
   }
   session_->run([&](VkCommandBuffer commands) {
     gpu_.barrier(commands, target.image, samples::kColorDrawn, samples::kCopySource);

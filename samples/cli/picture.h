@@ -40,7 +40,7 @@ class Painter {
   io::LinearImage draw(const io::Scene& scene, const Tables* tables, const PictureTarget& target);
 
  private:
-  void drawPlain(const Tables* tables, const SkyDraw& draw, const headless::Image& target,
+  void drawPlain(const FrameDesc& draw, const headless::Image& target,
                  const RecordFn& stars);
 
   Session* session_;

@@ -22,13 +22,6 @@ void writePicture(const std::string& path, const io::Scene& scene, const io::Lin
 
 namespace {
 
-std::optional<ShaftsDesc> shaftsOf(const ShaftChoice& choice, const Session& session,
-                                   const Plan& plan) {
-  std::optional<ShaftsDesc> desc = describeShafts(choice, session);
-  if (desc) desc->without = plan.viewWithout;
-  return desc;
-}
-
 // What the options and the scene leave open is planned; a table file is what it is.
 Plan planPicture(const RenderArguments& arguments, io::Scene scene, const ShaftChoice& shafts,
                  TableRequest* request) {
@@ -83,7 +76,7 @@ void runRender(const RenderArguments& arguments) {
   TableRequest request = requestTables(arguments.tables, scene.atmosphere, &scene);
   ShaftChoice shafts = chooseShafts(arguments, scene, request.desc.solver);
   const Plan plan = planPicture(arguments, scene, shafts, &request);
-  if (!plan.shafts) shafts.method = io::SceneShafts::Off;
+  if (plan.view.lightShafts.method == LightShaftMethod::Off) shafts.method = io::SceneShafts::Off;
   const bool disc = plan.choices[static_cast<uint32_t>(Effect::SunDisc)].on;
   if (!disc) scene.sun.discRadius = 0.0;
   const SceneryFiles files = readScenery(scene);
@@ -98,7 +91,7 @@ void runRender(const RenderArguments& arguments) {
   const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
   std::optional<Scenery> scenery;
   if (scene.terrain || !scene.balloons.empty()) {
-    scenery.emplace(&session, scene, files, ready, shaftsOf(shafts, session, plan), plan);
+    scenery.emplace(&session, scene, files, ready, describeShafts(shafts, session), plan);
   }
   Painter painter(&session, scene, albedo ? &*albedo : nullptr, ready, plan,
                   scenery ? &*scenery : nullptr);

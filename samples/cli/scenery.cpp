@@ -7,7 +7,7 @@ namespace {
 
 samples::LandscapeDesc describeLandscape(Session* session, const io::Scene& scene,
                                          const ReadyTables& tables,
-                                         const std::optional<ShaftsDesc>& shafts) {
+                                         const LightShaftDesc& shafts) {
   samples::LandscapeDesc desc;
   desc.context = session->context();
   desc.size = {scene.width, scene.height};
@@ -15,7 +15,7 @@ samples::LandscapeDesc describeLandscape(Session* session, const io::Scene& scen
   desc.tables = tables.tables.get();
   desc.solver = tables.desc.solver;
   desc.mie = tables.desc.mie;
-  desc.shafts = shafts ? &*shafts : nullptr;
+  desc.shafts = shafts;
   return desc;
 }
 
@@ -32,82 +32,80 @@ SceneryFiles readScenery(const io::Scene& scene) {
 }
 
 Scenery::Scenery(Session* session, const io::Scene& scene, const SceneryFiles& files,
-                 const ReadyTables& tables, const std::optional<ShaftsDesc>& shafts, const Plan& plan)
+                 const ReadyTables& tables, const LightShaftDesc& shafts, const Plan& plan)
     : session_(session),
       gpu_(session->gpu()),
-      hasAir_(plan.sceneDepth),
+      hasAir_(plan.view.aerialPerspective != AerialPerspective::Off),
       landscape_(&gpu_, scene, files.mesh ? &*files.mesh : nullptr,
                  files.albedo ? &*files.albedo : nullptr,
                  describeLandscape(session, scene, tables, shafts)) {}
 
-void Scenery::describe(ViewDesc* view) const {
-  landscape_.describe(view);
-  if (!hasAir_) view->sceneDepth = {};
-}
+void Scenery::describe(ViewDesc* view) const { landscape_.describe(view); }
 
-void Scenery::drawShafts(View* view, const Tables* tables, const SkyDraw& draw) {
-  const Casters casters = landscape_.casters();
+void Scenery::follow(const View* view) { landscape_.follow(view); }
+
+void Scenery::drawShafts(View* view) {
   session_->run([&](VkCommandBuffer commands) {
-    session_->check(recordSunMap(landscape_.shafts(), commands,
-                                 draw.sun.direction, casters));
+    session_->check(recordShadowMap(view, commands));
     return "sun map";
   });
   session_->run([&](VkCommandBuffer commands) {
-    session_->check(recordShafts(landscape_.shafts(), view, commands,
-                                 tables, draw, casters));
+    session_->check(recordLightShafts(view, commands));
     return "shafts";
   });
 }
 
-void Scenery::drawInto(const headless::Image& target, const SkyDraw& draw, const char* pass,
+void Scenery::drawInto(const headless::Image& target, const FrameDesc& draw, const char* pass,
                        bool first, const RecordFn& record) {
   session_->run([&](VkCommandBuffer commands) {
     gpu_.barrier(commands, target, first ? samples::kUndefined : samples::kColorDrawn,
                  samples::kColorDrawn);
-    gpu_.render(commands, target, draw.viewport,
+    gpu_.render(commands, target, draw.cameras[0].viewport,
                 first ? VK_ATTACHMENT_LOAD_OP_CLEAR : VK_ATTACHMENT_LOAD_OP_LOAD,
                 landscape_.depthAttachment(), [&] { record(commands); });
     return std::string(pass);
   });
 }
 
-void Scenery::draw(View* view, const Tables* tables, SkyDraw draw, const headless::Image& target,
+void Scenery::draw(View* view, const Tables* tables, FrameDesc frame, const headless::Image& target,
                    const RecordFn& stars) {
-  draw.depth = landscape_.depthRange(draw.camera);
-  // An engine records all this into one command buffer; here each pass is run and timed alone.
+  landscape_.describe(&frame);
+  // An engine records all this into one command buffer; here each pass is run and timed alone, which
+  // takes a frame of the library each time.
+  FrameWork work;
   session_->run([&](VkCommandBuffer commands) {
-    session_->check(recordSkySlice(view, commands, tables, draw));
+    session_->check(beginFrame(view, frame, &work));
+    session_->check(recordLuts(view, commands));
     return "sky slice";
   });
   const bool terrain = landscape_.hasTerrain();
+  const bool hasShafts = (work.record & kRecordLightShafts) != 0;
   if (terrain) {
     session_->run([&](VkCommandBuffer commands) {
-      landscape_.recordFrame(commands, draw);
-      landscape_.recordDepth(commands, draw);
+      landscape_.recordFrame(commands, frame, work.sets[kViewSetLightShafts]);
+      landscape_.recordDepth(commands, frame);
       return "terrain depth";
     });
-    if (landscape_.shafts() != nullptr) drawShafts(view, tables, draw);
-    drawInto(target, draw, "terrain", true,
-             [&](VkCommandBuffer commands) { landscape_.recordTerrain(commands, tables, draw); });
+    if (hasShafts) drawShafts(view);
+    drawInto(target, frame, "terrain", true,
+             [&](VkCommandBuffer commands) { landscape_.recordTerrain(commands, tables, frame); });
     if (hasAir_)
-      drawInto(target, draw, "air", false, [&](VkCommandBuffer commands) {
-        session_->check(recordAir(view, commands, tables, draw));
+      drawInto(target, frame, "air", false, [&](VkCommandBuffer commands) {
+        session_->check(recordAerialPerspective(view, commands));
       });
   }
-  drawInto(target, draw, "sky", !terrain, [&](VkCommandBuffer commands) {
-    session_->check(recordSky(view, commands, tables, draw));
-  });
-  if (stars) drawInto(target, draw, "stars", false, stars);
-  if (landscape_.hasBalloons()) {
-    if (!terrain) {
-      session_->run([&](VkCommandBuffer commands) {
-        landscape_.recordFrame(commands, draw);
-        return "balloons";
-      });
-    }
-    drawInto(target, draw, "balloons", false,
-             [&](VkCommandBuffer commands) { landscape_.recordBalloons(commands, tables, draw); });
+  drawInto(target, frame, "sky", !terrain,
+           [&](VkCommandBuffer commands) { session_->check(recordSky(view, commands)); });
+  if (stars) drawInto(target, frame, "stars", false, stars);
+  if (!landscape_.hasBalloons()) return;
+  if (!terrain) {
+    session_->run([&](VkCommandBuffer commands) {
+      landscape_.recordFrame(commands, frame, VK_NULL_HANDLE);
+      return "balloons";
+    });
   }
+  drawInto(target, frame, "balloons", false,
+           [&](VkCommandBuffer commands) { landscape_.recordBalloons(commands, tables, frame); });
 }
 
 }  // namespace alpenglow::cli

@@ -24,14 +24,15 @@ using RecordFn = std::function<void(VkCommandBuffer)>;
 class Scenery {
  public:
   Scenery(Session* session, const io::Scene& scene, const SceneryFiles& files,
-          const ReadyTables& tables, const std::optional<ShaftsDesc>& shafts, const Plan& plan);
+          const ReadyTables& tables, const LightShaftDesc& shafts, const Plan& plan);
 
-  /// Without aerial perspective there is no depth image for the view to read.
   void describe(ViewDesc* view) const;
+  /// Makes the pipelines that read this view's shafts. Before draw().
+  void follow(const View* view);
 
   /// Draws everything, the sky too, a pass at a time, into a target in any layout; leaves it in
   /// kColorDrawn. `stars`, if any, records what is behind all but the sky.
-  void draw(View* view, const Tables* tables, SkyDraw draw, const headless::Image& target,
+  void draw(View* view, const Tables* tables, FrameDesc frame, const headless::Image& target,
             const RecordFn& stars);
 
   /// Of the pipelines that draw behind it; undefined without depth.
@@ -40,8 +41,8 @@ class Scenery {
   }
 
  private:
-  void drawShafts(View* view, const Tables* tables, const SkyDraw& draw);
-  void drawInto(const headless::Image& target, const SkyDraw& draw, const char* pass, bool first,
+  void drawShafts(View* view);
+  void drawInto(const headless::Image& target, const FrameDesc& draw, const char* pass, bool first,
                 const RecordFn& record);
 
   Session* session_;

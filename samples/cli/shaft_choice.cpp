@@ -59,15 +59,15 @@ ShaftChoice chooseShafts(const RenderArguments& arguments, const io::Scene& scen
   return choice;
 }
 
-std::optional<ShaftsDesc> describeShafts(const ShaftChoice& choice, const Session& session) {
+LightShaftDesc describeShafts(const ShaftChoice& choice, const Session& session) {
   const std::string& why = choice.whyOff.empty() ? session.unfulfilled() : choice.whyOff;
   if (!why.empty()) std::fprintf(stderr, "The picture has no light shafts: %s\n", why.c_str());
-  if (choice.method == SceneShafts::Off || !why.empty()) return std::nullopt;
-  ShaftsDesc desc;
-  desc.samples = choice.samples;
-  desc.method = choice.method == SceneShafts::Paper   ? ShaftMethod::Paper
-                : choice.method == SceneShafts::March ? ShaftMethod::March
-                                                      : ShaftMethod::Exact;
+  if (choice.method == SceneShafts::Off || !why.empty()) return {};
+  LightShaftDesc desc;
+  if (choice.method == SceneShafts::March) desc.stepCount = choice.samples;
+  desc.method = choice.method == SceneShafts::Paper   ? LightShaftMethod::ShadowVolume
+                : choice.method == SceneShafts::March ? LightShaftMethod::RayMarch
+                                                      : LightShaftMethod::LightVolume;
   return desc;
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <alpenglow/io/scene_file.h>
-#include <alpenglow/shafts.h>
+#include <alpenglow/view.h>
 
 #include <optional>
 
@@ -22,7 +22,7 @@ struct ShaftChoice {
 /// Checked before there is a device. Throws a Failure for what contradicts itself.
 ShaftChoice chooseShafts(const RenderArguments& arguments, const io::Scene& scene, Solver solver);
 
-/// What to make; none: off. Says on stderr why there are none where they were left to us.
-std::optional<ShaftsDesc> describeShafts(const ShaftChoice& choice, const Session& session);
+/// What to make. Says on stderr why there are none where they were left to us.
+LightShaftDesc describeShafts(const ShaftChoice& choice, const Session& session);
 
 }  // namespace alpenglow::cli

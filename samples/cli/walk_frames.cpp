@@ -52,7 +52,7 @@ void WalkFrames::usePainter(const io::Scene& scene) {
 // Of a camera and a sun that may go anywhere, with tables as they are.
 Plan WalkFrames::planOf(const io::Scene& scene) const {
   PlanRequest request = samples::requestOfFlight(scene);
-  request.casters = parts_.shafts.has_value();
+  request.casters = parts_.shafts.method != LightShaftMethod::Off;
   for (uint32_t i = 0; i < kEffectCount; ++i)
     if ((kTableEffects & (1u << i)) != 0) request.effects[i] = Force::On;
   request.tables = ready_->desc;

@@ -11,7 +11,7 @@ struct WalkParts {
   const TableArguments* tables = nullptr;
   const io::AlbedoMap* albedo = nullptr;  ///< Of the ground; may be null.
   const SceneryFiles* files = nullptr;
-  std::optional<ShaftsDesc> shafts;
+  LightShaftDesc shafts;
 };
 
 /// Draws scenes that sceneAt() made of one walk. Tables are baked anew only where the air has

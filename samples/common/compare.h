@@ -5,7 +5,8 @@
 
 namespace alpenglow::samples {
 
-bool same(const SkyDraw& a, const SkyDraw& b);
+/// Camera, light and scale.
+bool samePicture(const FrameDesc& a, const FrameDesc& b);
 bool same(const TableSizes& a, const TableSizes& b);
 
 }  // namespace alpenglow::samples

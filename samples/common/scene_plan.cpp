@@ -72,27 +72,29 @@ void checkScenery(const io::Scene& scene) {
                 "orthographic pictures.");
 }
 
-SkyDraw describeDraw(const io::Scene& scene) {
+FrameDesc describeDraw(const io::Scene& scene) {
   const io::SceneCamera& c = scene.camera;
-  SkyDraw draw;
-  draw.camera = cameraFromGeodetic(scene.atmosphere, c.latitude, c.longitude, c.altitude_m,
-                                   c.heading, c.pitch, c.roll, c.fov);
-  draw.camera.height_m = c.orthographicHeight_m.value_or(0.0);
-  sunDirection(c.latitude, c.longitude, scene.sun.elevation, scene.sun.azimuth, draw.sun.direction);
-  draw.sun.irradiance = scene.atmosphere.solarIrradiance;
-  draw.sun.discRadius = scene.sun.discRadius;
-  draw.viewport = {{0, 0}, {scene.width, scene.height}};
-  return draw;
+  FrameDesc frame;  // Its world is the planet frame.
+  Camera& camera = frame.cameras[0];
+  camera = cameraAt(scene.atmosphere, frame.world, c.latitude, c.longitude, c.altitude_m, c.heading,
+                    c.pitch, c.roll);
+  camera.fov = c.fov;
+  camera.height = c.orthographicHeight_m.value_or(0.0);
+  camera.viewport = {{0, 0}, {scene.width, scene.height}};
+  directionAt(frame.world, c.latitude, c.longitude, scene.sun.elevation, scene.sun.azimuth,
+              frame.lights[0].direction);
+  frame.lights[0].discRadius = scene.sun.discRadius;
+  return frame;
 }
 
 PlanRequest requestOf(const io::Scene& scene) {
   PlanRequest request;
-  request.projection = projectionOf(scene.camera);
+  request.view.projection = projectionOf(scene.camera);
   describeCamera(scene, &request);
   describeSun(scene, &request);
   request.visible = kVisibleSky | kVisibleGround | kVisibleSpace | kVisibleSun;
   if (!scene.needs)
-    request.visible = visibleFrom(scene.atmosphere, request.projection, describeDraw(scene));
+    request.visible = visibleFrom(scene.atmosphere, request.view.projection, describeDraw(scene));
   if (scene.terrain) request.visible |= kVisibleScene;
   request.sunDiscRadius = scene.sun.discRadius;
   request.exposure = scene.exposure.value_or(0.0);
@@ -110,7 +112,7 @@ PlanRequest requestOf(const io::Scene& scene) {
 
 PlanRequest requestOfFlight(const io::Scene& scene) {
   PlanRequest request;
-  request.projection = projectionOf(scene.camera);
+  request.view.projection = projectionOf(scene.camera);
   request.visible = kVisibleSky | kVisibleGround | kVisibleSpace | kVisibleSun;
   if (scene.terrain) request.visible |= kVisibleScene;
   request.sunDiscRadius = std::max(scene.sun.discRadius, 1e-3);
@@ -141,13 +143,6 @@ Plan planRequest(const io::Scene& scene, const PlanRequest& request) {
                   "The shaders of the scene's terrain or balloons read its tables.");
   }
   return plan;
-}
-
-void describeView(const Plan& plan, ViewDesc* view) {
-  view->solver = plan.tables.solver;
-  view->mie = plan.tables.mie;
-  view->without = plan.viewWithout;
-  view->alwaysSliced = plan.skySlice;
 }
 
 TableDesc tablesOf(const io::Scene& scene) {

@@ -14,7 +14,7 @@ Projection projectionOf(const io::SceneCamera& camera);
 void checkScenery(const io::Scene& scene);
 
 /// Camera, sun and viewport of a scene's picture.
-SkyDraw describeDraw(const io::Scene& scene);
+FrameDesc describeDraw(const io::Scene& scene);
 
 /// What a scene may ask for: all of SceneNeeds, or, of a still, its camera and sun and what they
 /// see.
@@ -28,9 +28,6 @@ Plan planScene(const io::Scene& scene, const TableDesc& tables);
 
 /// The same of another request.
 Plan planRequest(const io::Scene& scene, const PlanRequest& request);
-
-/// Fills what a plan decides of a view: solver, mie, without, alwaysSliced.
-void describeView(const Plan& plan, ViewDesc* view);
 
 /// The description that a scene's plan starts from: what the scene says of its tables.
 TableDesc tablesOf(const io::Scene& scene);

@@ -55,22 +55,22 @@ void toCatalogue(const double vector[3], double siderealHours, float out[4]) {
   out[2] = narrow(vector[2]);
 }
 
-StarView starView(const Parameters& parameters, Projection projection, const SkyDraw& draw,
+StarView starView(const Parameters& parameters, Projection projection, const FrameDesc& draw,
                   double siderealHours) {
-  const Camera& c = draw.camera;
-  const double r = std::hypot(c.position_m[0], c.position_m[1], c.position_m[2]);
+  const Camera& c = draw.cameras[0];
+  const double r = std::hypot(c.position[0], c.position[1], c.position[2]);
   const double right[3] = {c.forward[1] * c.up[2] - c.forward[2] * c.up[1],
                            c.forward[2] * c.up[0] - c.forward[0] * c.up[2],
                            c.forward[0] * c.up[1] - c.forward[1] * c.up[0]};
   const double down[3] = {-c.up[0], -c.up[1], -c.up[2]};
-  const double vertical[3] = {c.position_m[0] / r, c.position_m[1] / r, c.position_m[2] / r};
+  const double vertical[3] = {c.position[0] / r, c.position[1] / r, c.position[2] / r};
   StarView view = {};
   toCatalogue(right, siderealHours, view.rightAltitude);
   toCatalogue(down, siderealHours, view.downFocal);
   toCatalogue(c.forward, siderealHours, view.forwardFisheye);
   toCatalogue(vertical, siderealHours, view.up);
   view.rightAltitude[3] = narrow(std::max(r - parameters.bottomRadius_m, 0.0));
-  const VkRect2D& area = draw.viewport;
+  const VkRect2D& area = draw.cameras[0].viewport;
   const double width = area.extent.width, height = area.extent.height;
   const bool fisheye = projection == Projection::Fisheye;
   view.downFocal[3] =
@@ -78,7 +78,7 @@ StarView starView(const Parameters& parameters, Projection projection, const Sky
   view.forwardFisheye[3] = fisheye ? narrow(0.5 * c.fov) : 0.0f;
   const double scale = draw.radianceScale == 0.0 ? 1.0 : draw.radianceScale;
   for (uint32_t i = 0; i < kSpectrumSize; ++i) {
-    view.irradiance[i] = narrow(draw.sun.irradiance[i] * scale);
+    view.irradiance[i] = narrow(parameters.solarIrradiance[i] * scale);
   }
   view.viewport[0] = narrow(area.offset.x);
   view.viewport[1] = narrow(area.offset.y);
@@ -111,9 +111,9 @@ Stars::Stars(const Gpu* gpu, const StarsDesc& desc) : gpu_(gpu), projection_(des
 }
 
 void Stars::record(VkCommandBuffer commands, const Parameters& parameters, const Tables* tables,
-                   const SkyDraw& draw, double siderealHours) const {
+                   const FrameDesc& draw, double siderealHours) const {
   if (count_ == 0) return;
-  const VkRect2D& area = draw.viewport;
+  const VkRect2D& area = draw.cameras[0].viewport;
   const VkViewport viewport = {narrow(area.offset.x),
                                narrow(area.offset.y),
                                narrow(area.extent.width),

@@ -46,7 +46,7 @@ class Stars {
   /// Adds their light to linear radiance, inside a rendering scope, behind everything. Parallel
   /// rays of an orthographic camera see none. Clobbers what recordSky does.
   void record(VkCommandBuffer commands, const Parameters& parameters, const Tables* tables,
-              const SkyDraw& draw, double siderealHours) const;
+              const FrameDesc& draw, double siderealHours) const;
 
  private:
   const Gpu* gpu_;

@@ -24,17 +24,17 @@ constexpr uint32_t kBalloonVertices = 6 * 48 * 32;  // kAround x kDown cells of 
 
 float narrow(double value) { return static_cast<float>(value); }
 
-FrameBlock frameBlock(const Parameters& parameters, Projection projection, const SkyDraw& draw) {
+FrameBlock frameBlock(const Parameters& parameters, Projection projection, const FrameDesc& draw) {
   FrameBlock block = {};
-  clipFromCamera(projection, DepthConvention::Reversed, draw, block.clipFromCamera);
-  const Camera& camera = draw.camera;
-  const double r = std::hypot(camera.position_m[0], camera.position_m[1], camera.position_m[2]);
+  const Camera& camera = draw.cameras[0];
+  clipFromCamera(projection, DepthConvention::Reversed, camera, block.clipFromCamera);
+  const double r = std::hypot(camera.position[0], camera.position[1], camera.position[2]);
   const double scale = draw.radianceScale == 0.0 ? 1.0 : draw.radianceScale;
   for (uint32_t i = 0; i < 3; ++i) {
-    block.upAltitude[i] = narrow(camera.position_m[i] / r);
+    block.upAltitude[i] = narrow(camera.position[i] / r);
     block.forwardParallel[i] = narrow(camera.forward[i]);
-    block.sun[i] = narrow(draw.sun.direction[i]);
-    block.irradiance[i] = narrow(draw.sun.irradiance[i] * scale);
+    block.sun[i] = narrow(draw.lights[0].direction[i]);
+    block.irradiance[i] = narrow(parameters.solarIrradiance[i] * scale);
   }
   block.upAltitude[3] = narrow(std::max(r - parameters.bottomRadius_m, 0.0));
   block.forwardParallel[3] = projection == Projection::Orthographic ? 1.0f : 0.0f;
@@ -43,11 +43,11 @@ FrameBlock frameBlock(const Parameters& parameters, Projection projection, const
 
 BalloonPush balloonPush(const Parameters& parameters, const io::SceneBalloon& balloon,
                         const Camera& camera) {
-  const Camera at = cameraFromGeodetic(parameters, balloon.latitude, balloon.longitude,
-                                       balloon.altitude_m, 0.0, 0.0, 0.0, 1.0);
+  const Camera at = cameraAt(parameters, {}, balloon.latitude, balloon.longitude,
+                             balloon.altitude_m, 0.0, 0.0, 0.0);
   BalloonPush push = {};
   for (uint32_t i = 0; i < 3; ++i) {
-    push.centerRadius[i] = narrow(at.position_m[i] - camera.position_m[i]);
+    push.centerRadius[i] = narrow(at.position[i] - camera.position[i]);
     push.upright[i] = narrow(at.up[i]);
     push.colorOpacity[i] = narrow(balloon.color[i]);
   }
@@ -74,28 +74,32 @@ Landscape::Landscape(const Gpu* gpu, const io::Scene& scene, const TerrainMesh* 
       projection_(projectionOf(scene.camera)),
       parameters_(scene.atmosphere),
       balloons_(scene.balloons),
-      mesh_(mesh) {
+      mesh_(mesh),
+      desc_(desc) {
   if (mesh != nullptr) {
     depth_ =
         gpu->image(desc.size, kDepthFormat,
                    VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, 1);
     depthAttachment_ = attachmentOf(depth_, kDepthRead.layout);
     uploadTerrain(*scene.terrain, albedo);
-    if (desc.shafts != nullptr) makeShafts(desc);
+    if (desc.shafts.method != LightShaftMethod::Off) makeShafts();
   }
-  LandscapePipelinesDesc pipelines;
-  pipelines.tables = desc.tables;
-  pipelines.colorFormat = desc.colorFormat;
-  pipelines.solver = desc.solver;
-  pipelines.mie = desc.mie;
-  pipelines.terrainAlbedo = mesh != nullptr ? &albedo_ : nullptr;
-  pipelines.balloons = hasBalloons();
-  pipelines.shafts = shafts_;
-  pipelines_.emplace(gpu, pipelines);
 }
 
-Landscape::~Landscape() {
-  if (shafts_ != nullptr) destroyShafts(shafts_);
+Landscape::~Landscape() = default;
+
+void Landscape::follow(const View* view) {
+  LandscapePipelinesDesc pipelines;
+  pipelines.tables = desc_.tables;
+  pipelines.colorFormat = desc_.colorFormat;
+  pipelines.solver = desc_.solver;
+  pipelines.mie = desc_.mie;
+  pipelines.terrainAlbedo = mesh_ != nullptr ? &albedo_ : nullptr;
+  pipelines.balloons = hasBalloons();
+  ViewInfo info;
+  gpu_->check(viewInfo(view, &info));
+  pipelines.shaftLayout = info.setLayouts[kViewSetLightShafts];
+  pipelines_.emplace(gpu_, pipelines);
 }
 
 void Landscape::uploadTerrain(const io::SceneTerrain& terrain, const io::AlbedoMap* albedo) {
@@ -116,65 +120,76 @@ void Landscape::uploadTerrain(const io::SceneTerrain& terrain, const io::AlbedoM
 void Landscape::uploadVertices() {
   vertices_ = gpu_->buffer(mesh_->vertices.size() * sizeof mesh_->vertices[0],
                            VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, mesh_->vertices.data());
+  ++castersVersion_;
 }
 
-void Landscape::makeShafts(const LandscapeDesc& desc) {
-  ShaftsDesc full = *desc.shafts;
-  full.closed = true;
-  full.adjacency = full.method == ShaftMethod::Paper;
-  if (full.adjacency) {
+void Landscape::makeShafts() {
+  LightShaftDesc& shafts = desc_.shafts;
+  shafts.closed = true;
+  shafts.adjacency = shafts.method == LightShaftMethod::ShadowVolume;
+  if (shafts.adjacency) {
     const std::vector<uint32_t> indices = withAdjacency(*mesh_);
     adjacency_ = gpu_->buffer(indices.size() * sizeof(uint32_t), VK_BUFFER_USAGE_INDEX_BUFFER_BIT,
                               indices.data());
     adjacencyCount_ = indices.size();
   }
-  full.sceneDepth = {depth_.view(), kDepthFormat, desc.size, kDepthRead.layout};
-  full.depth = DepthConvention::Reversed;
-  full.projection = projection_;
-  full.vertexStride = sizeof(TerrainVertex);
-  full.vertexOffset = offsetof(TerrainVertex, position);
-  gpu_->check(createShafts(desc.context, full, &shafts_));
+  shafts.vertexStride = sizeof(TerrainVertex);
+  shafts.vertexOffset = offsetof(TerrainVertex, position);
 }
 
 void Landscape::describe(ViewDesc* view) const {
-  if (mesh_ == nullptr) return;
-  view->sceneDepth = {depth_.view(), kDepthFormat, depth_.extent(), kDepthRead.layout};
+  if (mesh_ == nullptr) {
+    view->aerialPerspective = AerialPerspective::Off;
+    view->lightShafts.method = LightShaftMethod::Off;
+    return;
+  }
   view->depthFormat = kDepthFormat;
   view->depth = DepthConvention::Reversed;
-  view->shafts = shafts_;
+  view->lightShafts = desc_.shafts;
+  if (view->aerialPerspective == AerialPerspective::Off)
+    view->lightShafts.method = LightShaftMethod::Off;
 }
 
-DepthRange Landscape::depthRange(const Camera& camera) const {
-  if (projection_ != Projection::Orthographic) return {kNear_m, 0.0};
-  // Parallel rays need a far plane: behind all that is drawn.
-  double most = 1.0;
-  if (mesh_ != nullptr) {
-    most = std::max(most, reachOf(mesh_->place.box, camera.position_m, camera.forward).most * 1.01);
-  }
-  for (const io::SceneBalloon& balloon : balloons_) {
-    const Camera at = cameraFromGeodetic(parameters_, balloon.latitude, balloon.longitude,
-                                         balloon.altitude_m, 0.0, 0.0, 0.0, 1.0);
-    double along = 2.0 * balloon.radius_m;
-    for (int i = 0; i < 3; ++i)
-      along += (at.position_m[i] - camera.position_m[i]) * camera.forward[i];
-    most = std::max(most, along);
-  }
-  return {0.0, most};
-}
-
-Casters Landscape::casters() {
-  Casters casters;
+void Landscape::describe(FrameDesc* frame) const {
+  setDepthPlanes(&frame->cameras[0]);
+  if (mesh_ == nullptr) return;
+  frame->sceneDepth = {depth_.view(), kDepthRead.layout, depth_.extent(), VK_NULL_HANDLE};
+  Casters& casters = frame->casters;
   casters.bounds = mesh_->place.box;
-  casters.user = this;
-  casters.draw = [](void* user, VkCommandBuffer commands, const CasterPass* pass) {
+  casters.version = castersVersion_;
+  casters.user = const_cast<Landscape*>(this);
+  casters.draw = [](void* user, VkCommandBuffer commands, const CasterPass& pass) {
     const auto* self = static_cast<const Landscape*>(user);
-    placeCaster(pass, self->mesh_->place.origin_m, nullptr);
+    placeCaster(pass, commands, self->mesh_->place.origin_m, nullptr);
     if (self->adjacencyCount_ > 0)
       self->drawTerrain(commands, self->adjacency_, self->adjacencyCount_);
     else
       self->drawTerrain(commands, self->indices_, self->mesh_->indices.size());
   };
-  return casters;
+}
+
+void Landscape::setDepthPlanes(Camera* out) const {
+  const Camera& camera = *out;
+  if (projection_ != Projection::Orthographic) {
+    out->nearPlane = kNear_m;
+    out->farPlane = 0.0;
+    return;
+  }
+  // Parallel rays need a far plane: behind all that is drawn.
+  double most = 1.0;
+  if (mesh_ != nullptr) {
+    most = std::max(most, reachOf(mesh_->place.box, camera.position, camera.forward).most * 1.01);
+  }
+  for (const io::SceneBalloon& balloon : balloons_) {
+    const Camera at = cameraAt(parameters_, {}, balloon.latitude, balloon.longitude,
+                               balloon.altitude_m, 0.0, 0.0, 0.0);
+    double along = 2.0 * balloon.radius_m;
+    for (int i = 0; i < 3; ++i)
+      along += (at.position[i] - camera.position[i]) * camera.forward[i];
+    most = std::max(most, along);
+  }
+  out->nearPlane = 0.0;
+  out->farPlane = most;
 }
 
 void Landscape::drawTerrain(VkCommandBuffer commands, const headless::HostBuffer& indices,
@@ -193,7 +208,9 @@ const VkRenderingAttachmentInfo* Landscape::depthAttachment() const {
   return mesh_ != nullptr ? &depthAttachment_ : nullptr;
 }
 
-void Landscape::recordFrame(VkCommandBuffer commands, const SkyDraw& draw) const {
+void Landscape::recordFrame(VkCommandBuffer commands, const FrameDesc& draw,
+                            VkDescriptorSet shafts) {
+  shaftSet_ = shafts;
   const FrameBlock block = frameBlock(parameters_, projection_, draw);
   constexpr VkPipelineStageFlags2 kReaders =
       VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
@@ -206,8 +223,8 @@ void Landscape::recordFrame(VkCommandBuffer commands, const SkyDraw& draw) const
   gpu_->barrier(commands, written, read);
 }
 
-void Landscape::setPicture(VkCommandBuffer commands, const SkyDraw& draw) const {
-  const VkRect2D& area = draw.viewport;
+void Landscape::setPicture(VkCommandBuffer commands, const FrameDesc& draw) const {
+  const VkRect2D& area = draw.cameras[0].viewport;
   const VkViewport viewport = {static_cast<float>(area.offset.x),
                                static_cast<float>(area.offset.y),
                                static_cast<float>(area.extent.width),
@@ -218,15 +235,15 @@ void Landscape::setPicture(VkCommandBuffer commands, const SkyDraw& draw) const 
   gpu_->function<PFN_vkCmdSetScissor>("vkCmdSetScissor")(commands, 0, 1, &area);
 }
 
-void Landscape::placeTerrain(VkCommandBuffer commands, const SkyDraw& draw) const {
+void Landscape::placeTerrain(VkCommandBuffer commands, const FrameDesc& draw) const {
   float offset[4] = {};
   for (int i = 0; i < 3; ++i) {
-    offset[i] = narrow(mesh_->place.origin_m[i] - draw.camera.position_m[i]);
+    offset[i] = narrow(mesh_->place.origin_m[i] - draw.cameras[0].position[i]);
   }
   pipelines_->push(commands, offset, sizeof offset);
 }
 
-void Landscape::recordDepth(VkCommandBuffer commands, const SkyDraw& draw) const {
+void Landscape::recordDepth(VkCommandBuffer commands, const FrameDesc& draw) const {
   gpu_->barrier(commands, depth_, {kUndefined.layout, kDepthRead.stage, VK_ACCESS_2_NONE},
                 kDepthDrawn);
   VkRenderingAttachmentInfo attachment = depthAttachment_;
@@ -235,7 +252,7 @@ void Landscape::recordDepth(VkCommandBuffer commands, const SkyDraw& draw) const
   attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
   VkRenderingInfo rendering = {};
   rendering.sType = VK_STRUCTURE_TYPE_RENDERING_INFO;
-  rendering.renderArea = draw.viewport;
+  rendering.renderArea = draw.cameras[0].viewport;
   rendering.layerCount = 1;
   rendering.pDepthAttachment = &attachment;
   gpu_->function<PFN_vkCmdBeginRendering>("vkCmdBeginRendering")(commands, &rendering);
@@ -248,30 +265,30 @@ void Landscape::recordDepth(VkCommandBuffer commands, const SkyDraw& draw) const
 }
 
 void Landscape::recordTerrain(VkCommandBuffer commands, const Tables* tables,
-                              const SkyDraw& draw) const {
+                              const FrameDesc& draw) const {
   setPicture(commands, draw);
-  pipelines_->bindTerrain(commands, tables);
+  pipelines_->bindTerrain(commands, tables, shaftSet_);
   placeTerrain(commands, draw);
   drawTerrain(commands, indices_, mesh_->indices.size());
 }
 
 void Landscape::recordBalloons(VkCommandBuffer commands, const Tables* tables,
-                               const SkyDraw& draw) const {
+                               const FrameDesc& draw) const {
   std::vector<BalloonPush> pushes;
   for (const io::SceneBalloon& balloon : balloons_) {
-    pushes.push_back(balloonPush(parameters_, balloon, draw.camera));
+    pushes.push_back(balloonPush(parameters_, balloon, draw.cameras[0]));
   }
   const auto distance = [&](const BalloonPush& push) {
     const float* c = push.centerRadius;
     if (projection_ != Projection::Orthographic) return std::hypot(c[0], c[1], c[2]);
-    const double* f = draw.camera.forward;
+    const double* f = draw.cameras[0].forward;
     return narrow(c[0] * f[0] + c[1] * f[1] + c[2] * f[2]);
   };
   std::sort(pushes.begin(), pushes.end(), [&](const BalloonPush& a, const BalloonPush& b) {
     return distance(a) > distance(b);  // What is blended first lies behind.
   });
   setPicture(commands, draw);
-  pipelines_->bindBalloons(commands, tables);
+  pipelines_->bindBalloons(commands, tables, shaftSet_);
   for (const BalloonPush& push : pushes) {
     pipelines_->push(commands, &push, sizeof push);
     gpu_->function<PFN_vkCmdDraw>("vkCmdDraw")(commands, kBalloonVertices, 1, 0, 0);

@@ -3,16 +3,16 @@
 //
 //   recordFrame()      this frame's camera and sun
 //   recordDepth()      the terrain's depth alone
-//   recordSkySlice(), recordSunMap(), recordShafts()     the library's
+//   beginFrame(), recordLuts(), recordShadowMap(), recordLightShafts()   the library's
 //   a rendering scope with depthAttachment():
-//     recordTerrain()  linear radiance, without air
-//     recordAir()      the library's: air in front of the terrain
-//     recordSky()      the library's: the pixels that are left
-//     recordBalloons() each with its own air, blended
+//     recordTerrain()             linear radiance, as if there were no atmosphere
+//     recordAerialPerspective()   the library's: the atmosphere in front of the terrain
+//     recordSky()                 the library's: the pixels that are left
+//     recordBalloons()            each with its own aerial perspective, blended
 #pragma once
 
 #include <alpenglow/io/scene_file.h>
-#include <alpenglow/shafts.h>
+#include <alpenglow/view.h>
 
 #include <optional>
 #include <vector>
@@ -30,7 +30,7 @@ struct LandscapeDesc {
   VkFormat colorFormat = VK_FORMAT_UNDEFINED;
   Solver solver = Solver::Moments;     ///< As the tables that will be drawn with.
   MieStorage mie = MieStorage::Full;   ///< The same.
-  const ShaftsDesc* shafts = nullptr;  ///< Method and samples, the rest is filled in; null: none.
+  LightShaftDesc shafts;  ///< Method and steps; the rest is filled in.
 };
 
 class Landscape {
@@ -51,30 +51,31 @@ class Landscape {
 
   bool hasTerrain() const { return mesh_ != nullptr; }
   bool hasBalloons() const { return !balloons_.empty(); }
-  Shafts* shafts() const { return shafts_; }
 
-  /// Adds what a view must know: the scene's depth and its shafts.
+  /// Adds what a view must know: the formats of the scene's depth, and the shafts.
   void describe(ViewDesc* view) const;
-  /// Near and far plane for this camera.
-  DepthRange depthRange(const Camera& camera) const;
-  /// For recordSunMap and recordShafts, while the landscape lives.
-  Casters casters();
+  /// Makes the pipelines, which read the shafts of this view. Before anything is recorded. Throws.
+  void follow(const View* view);
+  /// Adds what a frame must know: depth planes for its camera, the scene's depth, the casters.
+  void describe(FrameDesc* frame) const;
 
-  /// Outside rendering scopes, as the next; the other calls draw for the camera and sun given here.
-  void recordFrame(VkCommandBuffer commands, const SkyDraw& draw) const;
+  /// Outside rendering scopes, as the next; the other calls draw for the frame given here. `shafts`:
+  /// FrameWork::sets[kViewSetLightShafts].
+  void recordFrame(VkCommandBuffer commands, const FrameDesc& draw, VkDescriptorSet shafts);
   /// Leaves the depth image in kDepthRead.
-  void recordDepth(VkCommandBuffer commands, const SkyDraw& draw) const;
-  void recordTerrain(VkCommandBuffer commands, const Tables* tables, const SkyDraw& draw) const;
-  void recordBalloons(VkCommandBuffer commands, const Tables* tables, const SkyDraw& draw) const;
+  void recordDepth(VkCommandBuffer commands, const FrameDesc& draw) const;
+  void recordTerrain(VkCommandBuffer commands, const Tables* tables, const FrameDesc& draw) const;
+  void recordBalloons(VkCommandBuffer commands, const Tables* tables, const FrameDesc& draw) const;
 
   /// Of the scope of recordTerrain and all after it; null without terrain.
   const VkRenderingAttachmentInfo* depthAttachment() const;
 
  private:
   void uploadTerrain(const io::SceneTerrain& terrain, const io::AlbedoMap* albedo);
-  void makeShafts(const LandscapeDesc& desc);
-  void setPicture(VkCommandBuffer commands, const SkyDraw& draw) const;
-  void placeTerrain(VkCommandBuffer commands, const SkyDraw& draw) const;
+  void makeShafts();
+  void setDepthPlanes(Camera* camera) const;
+  void setPicture(VkCommandBuffer commands, const FrameDesc& draw) const;
+  void placeTerrain(VkCommandBuffer commands, const FrameDesc& draw) const;
   void drawTerrain(VkCommandBuffer commands, const headless::HostBuffer& indices,
                    size_t count) const;
 
@@ -88,7 +89,9 @@ class Landscape {
   headless::HostBuffer vertices_, indices_;
   headless::HostBuffer adjacency_;  ///< Only for the paper's shadow volumes.
   size_t adjacencyCount_ = 0;
-  Shafts* shafts_ = nullptr;
+  LandscapeDesc desc_;
+  VkDescriptorSet shaftSet_ = VK_NULL_HANDLE;  ///< Of this frame.
+  uint64_t castersVersion_ = 1;
   std::optional<LandscapePipelines> pipelines_;  ///< Made once images and shafts are there.
 };
 

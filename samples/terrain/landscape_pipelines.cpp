@@ -102,7 +102,7 @@ Code textOf(Solver solver, bool shafts, bool terrain) {
 }  // namespace
 
 LandscapePipelines::LandscapePipelines(const Gpu* gpu, const LandscapePipelinesDesc& desc)
-    : gpu_(gpu), shafts_(desc.shafts) {
+    : gpu_(gpu), shaftLayout_(desc.shaftLayout) {
   makeSets(desc);
   makePipelines(desc);
 }
@@ -125,8 +125,8 @@ void LandscapePipelines::makeSets(const LandscapePipelinesDesc& desc) {
   }
   const VkDescriptorSetLayout sets[] = {
       infoOf(desc.tables).setLayout, frameLayout_.get(), albedoLayout_.get(),
-      shafts_ != nullptr ? shaftSetLayout(shafts_) : VK_NULL_HANDLE};
-  layout_ = gpu_->pipelineLayout({sets, shafts_ != nullptr ? size_t{4} : size_t{3}}, kPush);
+      shaftLayout_};
+  layout_ = gpu_->pipelineLayout({sets, shaftLayout_ != VK_NULL_HANDLE ? size_t{4} : size_t{3}}, kPush);
 }
 
 void LandscapePipelines::makePipelines(const LandscapePipelinesDesc& desc) {
@@ -143,7 +143,7 @@ void LandscapePipelines::makePipelines(const LandscapePipelinesDesc& desc) {
     depth_ = gpu_->pipeline(pipeline);
     pipeline.writesDepth = false;
     pipeline.color = desc.colorFormat;
-    pipeline.fragment = textOf(desc.solver, shafts_ != nullptr, true);
+    pipeline.fragment = textOf(desc.solver, shaftLayout_ != VK_NULL_HANDLE, true);
     terrain_ = gpu_->pipeline(pipeline);
   }
   if (!desc.balloons) return;
@@ -152,7 +152,7 @@ void LandscapePipelines::makePipelines(const LandscapePipelinesDesc& desc) {
   pipeline.attributes = {};
   pipeline.color = desc.colorFormat;
   pipeline.blending = Blending::Alpha;
-  pipeline.fragment = textOf(desc.solver, shafts_ != nullptr, false);
+  pipeline.fragment = textOf(desc.solver, shaftLayout_ != VK_NULL_HANDLE, false);
   const VkBool32 packed = desc.mie == MieStorage::Packed;
   const VkSpecializationMapEntry entry = {0, 0, sizeof packed};
   const VkSpecializationInfo constants = {1, &entry, sizeof packed, &packed};
@@ -160,8 +160,8 @@ void LandscapePipelines::makePipelines(const LandscapePipelinesDesc& desc) {
   balloon_ = gpu_->pipeline(pipeline);
 }
 
-void LandscapePipelines::bind(VkCommandBuffer commands, VkPipeline pipeline,
-                              const Tables* tables) const {
+void LandscapePipelines::bind(VkCommandBuffer commands, VkPipeline pipeline, const Tables* tables,
+                              VkDescriptorSet shafts) const {
   const auto bindSets = gpu_->function<PFN_vkCmdBindDescriptorSets>("vkCmdBindDescriptorSets");
   const auto bindSet = [&](uint32_t index, VkDescriptorSet set) {
     if (set == VK_NULL_HANDLE) return;
@@ -172,19 +172,21 @@ void LandscapePipelines::bind(VkCommandBuffer commands, VkPipeline pipeline,
   bindSet(0, infoOf(tables).set);
   bindSet(1, frameSet_);
   bindSet(2, albedoSet_);
-  bindSet(3, shafts_ != nullptr && tables != nullptr ? shaftSet(shafts_) : VK_NULL_HANDLE);
+  bindSet(3, shafts);
 }
 
 void LandscapePipelines::bindDepth(VkCommandBuffer commands) const {
-  bind(commands, depth_.get(), nullptr);
+  bind(commands, depth_.get(), nullptr, VK_NULL_HANDLE);
 }
 
-void LandscapePipelines::bindTerrain(VkCommandBuffer commands, const Tables* tables) const {
-  bind(commands, terrain_.get(), tables);
+void LandscapePipelines::bindTerrain(VkCommandBuffer commands, const Tables* tables,
+                                     VkDescriptorSet shafts) const {
+  bind(commands, terrain_.get(), tables, shafts);
 }
 
-void LandscapePipelines::bindBalloons(VkCommandBuffer commands, const Tables* tables) const {
-  bind(commands, balloon_.get(), tables);
+void LandscapePipelines::bindBalloons(VkCommandBuffer commands, const Tables* tables,
+                                     VkDescriptorSet shafts) const {
+  bind(commands, balloon_.get(), tables, shafts);
 }
 
 void LandscapePipelines::push(VkCommandBuffer commands, const void* data, uint32_t bytes) const {

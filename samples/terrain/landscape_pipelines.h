@@ -1,7 +1,7 @@
 // How a landscape's triangles are drawn: its descriptor sets and pipelines.
 #pragma once
 
-#include <alpenglow/shafts.h>
+#include <alpenglow/view.h>
 
 #include "common/gpu.h"
 
@@ -25,7 +25,7 @@ struct LandscapePipelinesDesc {
   MieStorage mie = MieStorage::Full;               ///< The same.
   const headless::Image* terrainAlbedo = nullptr;  ///< Null: there is no terrain, and no depth.
   bool balloons = false;
-  Shafts* shafts = nullptr;
+  VkDescriptorSetLayout shaftLayout = VK_NULL_HANDLE;  ///< Of the view's light shafts; null: none.
 };
 
 class LandscapePipelines {
@@ -33,7 +33,7 @@ class LandscapePipelines {
   static constexpr VkShaderStageFlags kPushStages =
       VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 
-  /// `gpu`, the image and the shafts outlive it. Throws an Error.
+  /// `gpu` and the image outlive it. Throws an Error.
   LandscapePipelines(const Gpu* gpu, const LandscapePipelinesDesc& desc);
 
   /// Holds a FrameBlock for all pipelines.
@@ -41,18 +41,19 @@ class LandscapePipelines {
 
   /// Each binds a pipeline with its sets.
   void bindDepth(VkCommandBuffer commands) const;
-  void bindTerrain(VkCommandBuffer commands, const Tables* tables) const;
-  void bindBalloons(VkCommandBuffer commands, const Tables* tables) const;
+  void bindTerrain(VkCommandBuffer commands, const Tables* tables, VkDescriptorSet shafts) const;
+  void bindBalloons(VkCommandBuffer commands, const Tables* tables, VkDescriptorSet shafts) const;
   /// Constants of the shaders: a place of the terrain, or a balloon.
   void push(VkCommandBuffer commands, const void* data, uint32_t bytes) const;
 
  private:
   void makeSets(const LandscapePipelinesDesc& desc);
   void makePipelines(const LandscapePipelinesDesc& desc);
-  void bind(VkCommandBuffer commands, VkPipeline pipeline, const Tables* tables) const;
+  void bind(VkCommandBuffer commands, VkPipeline pipeline, const Tables* tables,
+            VkDescriptorSet shafts) const;
 
   const Gpu* gpu_;
-  Shafts* shafts_;
+  VkDescriptorSetLayout shaftLayout_;
   headless::HostBuffer frame_;
   Owned<VkSampler> sampler_;
   Owned<VkDescriptorSetLayout> frameLayout_, albedoLayout_;

@@ -333,9 +333,9 @@ void App::drawPicture(const Frame& frame) {
   const io::Scene& scene = state_.scene;
   Shown now;
   now.draw = samples::describeDraw(scene);
-  now.draw.viewport = {};
+  now.draw.cameras[0].viewport = {};
   if (air_ && !air_->plan.choices[static_cast<uint32_t>(Effect::SunDisc)].on) {
-    now.draw.sun.discRadius = 0.0;
+    now.draw.lights[0].discRadius = 0.0;
   }
   now.tables = air_ ? air_->tables.get() : nullptr;
   now.siderealHours = scene.stars ? scene.stars->siderealHours : -1.0;
@@ -351,13 +351,13 @@ void App::drawPicture(const Frame& frame) {
   resting_ = size.width == full.width && size.height == full.height && now.tables;
   if (!changed && sameSize) return;
   drawn_ = size;
-  now.draw.viewport.extent = size;
+  now.draw.cameras[0].viewport.extent = size;
   if (now.tables != nullptr) {
     stage_.record(frame, scene, *air_, now.draw, picture_, &timer_);
     return picture_.measure(frame, size);
   }
   picture_.beginDrawing(frame.commands);
-  host_.gpu->render(frame.commands, picture_.target(), now.draw.viewport,
+  host_.gpu->render(frame.commands, picture_.target(), now.draw.cameras[0].viewport,
                     VK_ATTACHMENT_LOAD_OP_CLEAR, nullptr, [] {});
   picture_.endDrawing(frame.commands);
 }

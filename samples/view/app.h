@@ -95,7 +95,7 @@ class App {
   VkExtent2D drawn_ = {};
   /// What the picture shows.
   struct Shown {
-    SkyDraw draw;
+    FrameDesc draw;
     const Tables* tables = nullptr;
     double siderealHours = 0.0;  ///< -1 without stars.
     bool operator==(const Shown& other) const {

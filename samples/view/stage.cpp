@@ -9,13 +9,13 @@
 namespace alpenglow::view {
 namespace {
 
-ShaftsDesc shaftsOf(io::SceneShafts method, uint32_t shaftSamples, EffectFlags without) {
-  ShaftsDesc desc;
-  desc.method = method == io::SceneShafts::Paper   ? ShaftMethod::Paper
-                : method == io::SceneShafts::March ? ShaftMethod::March
-                                                   : ShaftMethod::Exact;
-  if (method == io::SceneShafts::March) desc.samples = shaftSamples;
-  desc.without = without;
+LightShaftDesc shaftsOf(io::SceneShafts method, uint32_t stepCount) {
+  LightShaftDesc desc;
+  if (method == io::SceneShafts::Off) return desc;
+  desc.method = method == io::SceneShafts::Paper   ? LightShaftMethod::ShadowVolume
+                : method == io::SceneShafts::March ? LightShaftMethod::RayMarch
+                                                   : LightShaftMethod::LightVolume;
+  if (method == io::SceneShafts::March) desc.stepCount = stepCount;
   return desc;
 }
 
@@ -58,14 +58,14 @@ void Stage::load(const io::Scene& scene) {
 }
 
 Stage::Key Stage::keyOf(const io::Scene& scene, const Air& air) const {
-  ViewDesc desc;
-  samples::describeView(air.plan, &desc);
-  const bool shafts = air.plan.shafts && mesh_ && scene.shafts != io::SceneShafts::Off;
-  return {desc.solver,
-          desc.mie,
-          desc.without,
-          air.plan.skySlice,
-          air.plan.sceneDepth && mesh_.has_value(),
+  const ViewDesc& view = air.plan.view;
+  const bool shafts = view.lightShafts.method != LightShaftMethod::Off && mesh_ &&
+                      scene.shafts != io::SceneShafts::Off;
+  return {air.plan.tables.solver,
+          air.plan.tables.mie,
+          view.disabledEffects,
+          view.sky == SkyMethod::Lut,
+          view.aerialPerspective != AerialPerspective::Off && mesh_.has_value(),
           air.plan.tables.quality,
           samples::projectionOf(scene.camera),
           shafts ? scene.shafts : io::SceneShafts::Off,
@@ -80,25 +80,24 @@ void Stage::makeLandscape(const io::Scene& scene, const Key& key, const Air& air
   desc.colorFormat = kRadianceFormat;
   desc.solver = key.solver;
   desc.mie = key.mie;
-  const ShaftsDesc shafts = shaftsOf(key.shafts, key.shaftSamples, air.plan.viewWithout);
-  if (key.shafts != io::SceneShafts::Off) desc.shafts = &shafts;
+  desc.shafts = shaftsOf(key.shafts, key.shaftSamples);
   landscape_.emplace(gpu_, scene, mesh_ ? &*mesh_ : nullptr,
                      terrainAlbedo_ ? &*terrainAlbedo_ : nullptr, desc);
 }
 
 void Stage::makeView(const Key& key, const Air& air) {
-  ViewDesc desc;
+  ViewDesc desc = air.plan.view;
   desc.colorFormat = kRadianceFormat;
   desc.projection = key.projection;
-  samples::describeView(air.plan, &desc);
-  if (air.plan.skySlice) desc.skySlice = air.tables.get();
   if (albedo_.image() != VK_NULL_HANDLE) {
-    desc.groundAlbedo = {albedo_.view(), sampler_.get(), samples::kSampled.layout,
-                         albedo_.extent().width, albedo_.extent().height};
+    desc.groundAlbedo = {albedo_.view(), samples::kSampled.layout, albedo_.extent(),
+                         sampler_.get()};
   }
+  desc.lightShafts.method = LightShaftMethod::Off;
+  if (!key.air) desc.aerialPerspective = AerialPerspective::Off;
   if (landscape_) landscape_->describe(&desc);
-  if (!key.air) desc.sceneDepth = {};
-  gpu_->check(createView(context_, desc, &view_));
+  gpu_->check(createView(context_, air.tables.get(), desc, &view_));
+  if (landscape_) landscape_->follow(view_);
 }
 
 void Stage::prepare(const io::Scene& scene, const Air& air) {
@@ -112,7 +111,6 @@ void Stage::prepare(const io::Scene& scene, const Air& air) {
   if (moved) {
     mesh_ = samples::loadTerrain(air.parameters, *scene.terrain);
     meshRadius_m_ = air.parameters.bottomRadius_m;
-    std::fill_n(mappedSun_, 3, 0.0);
   }
   if (key_ == key) {
     landscape_->follow(air.parameters);
@@ -127,7 +125,6 @@ void Stage::prepare(const io::Scene& scene, const Air& air) {
                                             mesh_ ? samples::kDepthFormat : VK_FORMAT_UNDEFINED,
                                             key.projection, key.solver});
   }
-  std::fill_n(mappedSun_, 3, 0.0);
   key_ = key;
 }
 
@@ -142,34 +139,25 @@ bool Stage::done(Status status) {
   return status == Status::Ok;
 }
 
-void Stage::recordShadows(const Frame& frame, const Air& air, const SkyDraw& draw,
-                          PassTimer* timer) {
-  const Casters casters = landscape_->casters();
-  if (!std::equal(mappedSun_, mappedSun_ + 3, draw.sun.direction)) {
-    timer->time(frame, "sun map", [&] {
-      done(recordSunMap(landscape_->shafts(), frame.commands, draw.sun.direction,
-                        casters));
-    });
-    std::copy_n(draw.sun.direction, 3, mappedSun_);
+void Stage::recordShadows(const Frame& frame, PassTimer* timer) {
+  if ((work_.record & kRecordShadowMap) != 0) {
+    timer->time(frame, "sun map", [&] { done(recordShadowMap(view_, frame.commands)); });
   }
-  timer->time(frame, "shafts", [&] {
-    done(recordShafts(landscape_->shafts(), view_, frame.commands, air.tables.get(),
-                      draw, casters));
-  });
+  timer->time(frame, "shafts", [&] { done(recordLightShafts(view_, frame.commands)); });
 }
 
 // In the order that landscape.h gives; all of it fits one scope.
 void Stage::recordScope(const Frame& frame, const io::Scene& scene, const Air& air,
-                        const SkyDraw& draw, PassTimer* timer) {
+                        const FrameDesc& draw, PassTimer* timer) {
   const Tables* tables = air.tables.get();
   if (mesh_) {
     timer->time(frame, "terrain", [&] { landscape_->recordTerrain(frame.commands, tables, draw); });
     if (key_->air) {
       timer->time(frame, "air",
-                  [&] { done(recordAir(view_, frame.commands, tables, draw)); });
+                  [&] { done(recordAerialPerspective(view_, frame.commands)); });
     }
   }
-  timer->time(frame, "sky", [&] { done(recordSky(view_, frame.commands, tables, draw)); });
+  timer->time(frame, "sky", [&] { done(recordSky(view_, frame.commands)); });
   if (scene.stars && stars_) {
     timer->time(frame, "stars", [&] {
       stars_->record(frame.commands, air.parameters, tables, draw, scene.stars->siderealHours);
@@ -181,29 +169,23 @@ void Stage::recordScope(const Frame& frame, const io::Scene& scene, const Air& a
   }
 }
 
-void Stage::record(const Frame& frame, const io::Scene& scene, const Air& air, SkyDraw draw,
+void Stage::record(const Frame& frame, const io::Scene& scene, const Air& air, FrameDesc draw,
                    const Picture& picture, PassTimer* timer) {
   refusal_.clear();
   if (!key_) return;
-  // A flight keeps the sun where it is, but for rounding, and a map of its shadows holds that long.
-  constexpr double kSame = 1e-7;
-  if (std::equal(mappedSun_, mappedSun_ + 3, draw.sun.direction,
-                 [](double a, double b) { return std::abs(a - b) < kSame; })) {
-    std::copy_n(mappedSun_, 3, draw.sun.direction);
-  }
-  if (landscape_) draw.depth = landscape_->depthRange(draw.camera);
-  if (key_->sliced) {
-    timer->time(frame, "sky slice", [&] {
-      done(recordSkySlice(view_, frame.commands, air.tables.get(), draw));
-    });
-  }
-  if (landscape_) landscape_->recordFrame(frame.commands, draw);
+  draw.tables = air.tables.get();
+  if (landscape_) landscape_->describe(&draw);
+  done(beginFrame(view_, draw, &work_));
+  if ((work_.record & kRecordLuts) != 0)
+    timer->time(frame, "sky slice", [&] { done(recordLuts(view_, frame.commands)); });
+  if (landscape_)
+    landscape_->recordFrame(frame.commands, draw, work_.sets[kViewSetLightShafts]);
   if (mesh_) {
     timer->time(frame, "terrain depth", [&] { landscape_->recordDepth(frame.commands, draw); });
-    if (landscape_->shafts() != nullptr) recordShadows(frame, air, draw, timer);
+    if ((work_.record & kRecordLightShafts) != 0) recordShadows(frame, timer);
   }
   picture.beginDrawing(frame.commands);
-  gpu_->render(frame.commands, picture.target(), draw.viewport, VK_ATTACHMENT_LOAD_OP_CLEAR,
+  gpu_->render(frame.commands, picture.target(), draw.cameras[0].viewport, VK_ATTACHMENT_LOAD_OP_CLEAR,
                landscape_ ? landscape_->depthAttachment() : nullptr,
                [&] { recordScope(frame, scene, air, draw, timer); });
   picture.endDrawing(frame.commands);

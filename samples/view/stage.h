@@ -33,7 +33,7 @@ class Stage {
 
   /// Draws into the picture's target. Outside rendering scopes. What the library refuses is left
   /// out of the picture; refusal() says why.
-  void record(const Frame& frame, const io::Scene& scene, const Air& air, SkyDraw draw,
+  void record(const Frame& frame, const io::Scene& scene, const Air& air, FrameDesc draw,
               const Picture& picture, PassTimer* timer);
   const std::string& refusal() const { return refusal_; }
 
@@ -55,8 +55,8 @@ class Stage {
   Key keyOf(const io::Scene& scene, const Air& air) const;
   void makeLandscape(const io::Scene& scene, const Key& key, const Air& air);
   void makeView(const Key& key, const Air& air);
-  void recordShadows(const Frame& frame, const Air& air, const SkyDraw& draw, PassTimer* timer);
-  void recordScope(const Frame& frame, const io::Scene& scene, const Air& air, const SkyDraw& draw,
+  void recordShadows(const Frame& frame, PassTimer* timer);
+  void recordScope(const Frame& frame, const io::Scene& scene, const Air& air, const FrameDesc& draw,
                    PassTimer* timer);
   /// Whether the library did it.
   bool done(Status status);
@@ -75,7 +75,7 @@ class Stage {
   std::optional<samples::Landscape> landscape_;
   std::optional<samples::Stars> stars_;
   View* view_ = nullptr;
-  double mappedSun_[3] = {};  ///< Of the map from the sun.
+  FrameWork work_;  ///< Of the last beginFrame.
   std::string refusal_;
 };
 

@@ -51,7 +51,7 @@ void moveCamera(io::Scene* scene, const double metres[3]) {
                            f[0] * u[1] - f[1] * u[0]};
   double p[3];
   for (int i = 0; i < 3; ++i) {
-    p[i] = camera.position_m[i] + metres[0] * f[i] + metres[1] * right[i] + metres[2] * u[i];
+    p[i] = camera.position[i] + metres[0] * f[i] + metres[1] * right[i] + metres[2] * u[i];
   }
   const double r = std::sqrt(dot(p, p));
   if (!(r > 0.0)) return;
