@@ -7,6 +7,7 @@
 
 #include "picture_target.h"
 #include "shaft_choice.h"
+#include "tables.h"
 #include "terrain/landscape.h"
 
 namespace alpenglow::cli {

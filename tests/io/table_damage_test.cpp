@@ -98,7 +98,10 @@ TEST_F(Damage, EveryByteOfASmallFileAltered) {
 
 TEST_F(Damage, AThousandCutsOfAFullFile) {
   TableDesc desc = smallStandard();
-  desc = resolved(desc, preset("earth"));
+  desc.sizes = {};
+  Parameters earth;
+  ASSERT_EQ(findPreset("earth", &earth, {}), Status::Ok);
+  desc = resolved(desc, earth);
   const std::string whole = bytesOf(makeTables(desc, false));
   std::mt19937_64 random(20261122);
   // Most cuts near the ends, where headers and the last lines are, and the rest anywhere. The file
