@@ -262,9 +262,10 @@ FrameDesc drawOfRay(const Parameters& parameters, const ProbeQuery& ray, int32_t
 FrameDesc drawOfView(const Parameters& parameters, double altitude_m, double sun, double azimuth,
                    double pitch, double fov, VkExtent2D size) {
   FrameDesc draw;
-  draw.cameras[0] = cameraFromGeodetic(parameters, 0.0, 0.0, altitude_m, 0.0, pitch * kDegree, 0.0,
-                                   fov * kDegree);
-  sunDirection(0.0, 0.0, sun * kDegree, azimuth * kDegree, draw.lights[0].direction);
+  draw.cameras[0] =
+      cameraAt(parameters, draw.world, 0.0, 0.0, altitude_m, 0.0, pitch * kDegree, 0.0);
+  draw.cameras[0].fov = fov * kDegree;
+  directionAt(draw.world, 0.0, 0.0, sun * kDegree, azimuth * kDegree, draw.lights[0].direction);
   draw.cameras[0].viewport = {{0, 0}, size};
   return draw;
 }

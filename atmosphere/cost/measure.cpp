@@ -95,9 +95,9 @@ class Sweep {
  private:
   TablesPointer bakeTimed(const Configuration& configuration, Row* row);
   TablesPointer rounded(Tables* tables, const Configuration& configuration);
-  void timeFrames(View* view, const Drawn& drawn, const Configuration& configuration, Row* row);
+  void timeFrames(View* view, const Configuration& configuration, Row* row);
   void fill(const Configuration& configuration, bool pictured, Row* row);
-  std::vector<io::LinearImage> pictures(View* view, const Drawn& drawn);
+  std::vector<io::LinearImage> pictures(View* view);
   std::vector<io::LinearImage> finestPictures();
 
   const Options& options_;
@@ -149,7 +149,7 @@ TablesPointer Sweep::rounded(Tables* tables, const Configuration& configuration)
   return bench_.withSource(all_.set.parameters, desc, tables, rgba);
 }
 
-void Sweep::timeFrames(View* view, const Drawn& drawn, const Configuration& configuration,
+void Sweep::timeFrames(View* view, const Configuration& configuration,
                        Row* row) {
   const bool groundOnly =
       configuration.onlySun_deg != 0.0 || !hasEffect(configuration.viewWithout, Effect::SpaceViews);
@@ -160,10 +160,10 @@ void Sweep::timeFrames(View* view, const Drawn& drawn, const Configuration& conf
     const FrameDesc draw = drawOfView(all_.set.parameters, look.altitude_m, sun, look.azimuth,
                                     look.pitch, look.fov, {options_.width, options_.height});
     std::vector<double> times;
-    bench_.frame(view, drawn, draw);
+    bench_.frame(view, draw);
     double budget_s = options_.quick ? 0.6 : 2.0;
     for (int k = 0; k < (options_.quick ? 3 : 7) && (k < 2 || budget_s > 0.0); ++k) {
-      times.push_back(1e3 * bench_.frame(view, drawn, draw));
+      times.push_back(1e3 * bench_.frame(view, draw));
       budget_s -= 1e-3 * times.back();
     }
     row->frame_ms[i] = timingOf(times);
@@ -204,26 +204,26 @@ void Sweep::fill(const Configuration& configuration, bool pictured, Row* filled)
     // Rays from everywhere, so with all that a view can draw; frames as configured.
     const ViewPointer view = bench_.view(drawn);
     row.errors =
-        errorsOf(truth, bench_.radiance(view.get(), drawn, truth.set.parameters, truth.rays));
+        errorsOf(truth, bench_.radiance(view.get(), truth.set.parameters, truth.rays));
     // Tables for some suns say nothing of others.
     for (uint32_t band = configuration.bands; band < kBandCount; ++band) row.errors[band] = {};
-    if (pictured) pictured_.push_back({configuration.name, pictures(view.get(), drawn)});
+    if (pictured) pictured_.push_back({configuration.name, pictures(view.get())});
   }
   drawn.viewWithout = configuration.viewWithout;
   const ViewPointer view = bench_.view(drawn);
-  timeFrames(view.get(), drawn, configuration, &row);
+  timeFrames(view.get(), configuration, &row);
   // Whatever was needed once has been freed with its frame.
   row.bytes = bench_.resources().bytes;
   row.peakBytes = bench_.resources().peakBytes;
 }
 
-std::vector<io::LinearImage> Sweep::pictures(View* view, const Drawn& drawn) {
+std::vector<io::LinearImage> Sweep::pictures(View* view) {
   std::vector<io::LinearImage> result;
   for (const Look& look : kScenes) {
     FrameDesc draw = drawOfView(all_.set.parameters, look.altitude_m, look.sun, look.azimuth,
                               look.pitch, look.fov, kPicture);
     draw.lights[0].discRadius = 0.2667 * std::numbers::pi / 180.0;
-    bench_.frame(view, drawn, draw);
+    bench_.frame(view, draw);
     result.push_back(bench_.read(kPicture));
   }
   return result;
@@ -238,7 +238,7 @@ std::vector<io::LinearImage> Sweep::finestPictures() {
   if (tables == nullptr) throw Failure(bench_.refusal());
   const Drawn drawn{tables.get(), desc, false, 0};
   const ViewPointer view = bench_.view(drawn);
-  return pictures(view.get(), drawn);
+  return pictures(view.get());
 }
 
 std::vector<Comparison> Sweep::compare() {

@@ -68,9 +68,11 @@ std::vector<uint32_t> withAdjacency(const TerrainMesh& mesh) {
 Reach reachOf(const Box& box, const double point[3], const double direction[3]) {
   double middle = 0.0;
   double half = 0.0;
-  for (int i = 0; i < 3; ++i) middle += (box.center_m[i] - point[i]) * direction[i];
-  for (const auto& axis : box.halfAxes_m) {
-    half += std::abs(axis[0] * direction[0] + axis[1] * direction[1] + axis[2] * direction[2]);
+  for (int i = 0; i < 3; ++i) {
+    const double* axis = box.axes[i];
+    middle += (box.center[i] - point[i]) * direction[i];
+    half += box.halfExtents[i] *
+            std::abs(axis[0] * direction[0] + axis[1] * direction[1] + axis[2] * direction[2]);
   }
   return {middle - half, middle + half};
 }
