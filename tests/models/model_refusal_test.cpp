@@ -57,7 +57,7 @@ TEST_F(ModelRefusalTest, ViewsOfAnotherSolver) {
   ViewDesc desc;
   desc.solver = Solver::Hillaire;
   View* const view = makeView(desc);
-  const SkyDraw draw =
+  const FrameState draw =
       makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0),
                {1.0, 0.0, 0.0}, {8, 8});
   const Status status =

@@ -101,7 +101,7 @@ sky::AirVolume* AirTest::volume() {
   return objects().volume;
 }
 
-void AirTest::fill(const SkyDraw& draw, Tables* with) {
+void AirTest::fill(const FrameState& draw, Tables* with) {
   Tables* const baked = with != nullptr ? with : tables();
   sky::AirVolume* const filled = volume();
   run([&](VkCommandBuffer commands) {
@@ -109,7 +109,7 @@ void AirTest::fill(const SkyDraw& draw, Tables* with) {
   });
 }
 
-LookupConstants AirTest::lookupConstants(const Parameters& parameters, const SkyDraw& draw) {
+LookupConstants AirTest::lookupConstants(const Parameters& parameters, const FrameState& draw) {
   const sky::AirLookup lookup = sky::airLookup(parameters, draw);
   const auto f = [](double value) { return static_cast<float>(value); };
   LookupConstants k = {};
@@ -128,7 +128,7 @@ LookupConstants AirTest::lookupConstants(const Parameters& parameters, const Sky
   return k;
 }
 
-bool AirTest::recordAsk(VkCommandBuffer commands, const SkyDraw& draw, AirAsk what, size_t count,
+bool AirTest::recordAsk(VkCommandBuffer commands, const FrameState& draw, AirAsk what, size_t count,
                         Tables* baked) {
   Objects& o = objects();
   LookupConstants constants = lookupConstants(baked->parameters(), draw);
@@ -148,7 +148,7 @@ bool AirTest::recordAsk(VkCommandBuffer commands, const SkyDraw& draw, AirAsk wh
   return barriers.record(*o.device, commands) == Status::Ok;
 }
 
-std::vector<AirAnswer> AirTest::ask(const SkyDraw& draw, const std::vector<AirQuery>& queries,
+std::vector<AirAnswer> AirTest::ask(const FrameState& draw, const std::vector<AirQuery>& queries,
                                     Tables* with) {
   Tables* const baked = with != nullptr ? with : tables();
   makeObjects();
@@ -180,7 +180,7 @@ double AirTest::leastSeconds(const std::function<bool(VkCommandBuffer)>& record)
   return best;
 }
 
-double AirTest::askSeconds(const SkyDraw& draw, AirAsk what, const std::vector<AirQuery>& queries) {
+double AirTest::askSeconds(const FrameState& draw, AirAsk what, const std::vector<AirQuery>& queries) {
   makeObjects();
   std::copy(queries.begin(), queries.end(), static_cast<AirQuery*>(objects().queries.data()));
   Tables* const baked = tables();
@@ -189,7 +189,7 @@ double AirTest::askSeconds(const SkyDraw& draw, AirAsk what, const std::vector<A
   });
 }
 
-double AirTest::fillSeconds(const SkyDraw& draw) {
+double AirTest::fillSeconds(const FrameState& draw) {
   sky::AirVolume* const filled = volume();
   Tables* const baked = tables();
   return leastSeconds([&](VkCommandBuffer commands) {

@@ -38,7 +38,7 @@ struct AirErrors {
 
 class AirVolumeTest : public AirTest {
  protected:
-  SkyDraw drawOf(double altitude, double elevation) {
+  FrameState drawOf(double altitude, double elevation) {
     double sun[3];
     sunDirection(0.0, 0.0, radians(elevation), kSunAzimuth, sun);
     return makeDraw(
@@ -137,7 +137,7 @@ TEST_F(AirVolumeTest, IsTheLightOfPathsAtAllDistances) {
   std::printf("per cent, p95 p99 max: own segment (>= 100 m) | scene | single | transmittance\n");
   for (const Place& place : kPlaces) {
     for (const double sun : kSuns) {
-      const SkyDraw draw = drawOf(place.altitude, sun);
+      const FrameState draw = drawOf(place.altitude, sun);
       fill(draw);
       const std::vector<AirAnswer> answers = ask(draw, queriesOf(place.altitude, sun));
       EXPECT_EQ(badAnswer(answers), "") << place.name << ", sun " << sun;
@@ -160,7 +160,7 @@ TEST_F(AirVolumeTest, IsTheLightOfPathsAtAllDistances) {
 // one's.
 TEST_F(AirVolumeTest, DifferencesAreThoseOfStretches) {
   for (const Place& place : kPlaces) {
-    const SkyDraw draw = drawOf(place.altitude, 10.0);
+    const FrameState draw = drawOf(place.altitude, 10.0);
     fill(draw);
     const double dip = horizonDip(preset("earth"), place.altitude);
     std::mt19937 random(3);
@@ -208,7 +208,7 @@ TEST_F(AirVolumeTest, HasNoStepInDistanceNorAtTheHorizon) {
   for (const Place& place : kPlaces) {
     if (place.altitude > 1e5) continue;  // from there the horizon is beyond the air that counts
     for (const double sun : {50.0, 3.0}) {
-      const SkyDraw draw = drawOf(place.altitude, sun);
+      const FrameState draw = drawOf(place.altitude, sun);
       fill(draw);
       const double dip = horizonDip(preset("earth"), place.altitude);
       const double reach = std::sqrt(2.0 * 6.36e6 * place.altitude);  // to the horizon
@@ -231,7 +231,7 @@ TEST_F(AirVolumeTest, HasNoStepInDistanceNorAtTheHorizon) {
 }
 
 TEST_F(AirVolumeTest, ServesItsCameraSunAndTablesAlone) {
-  const SkyDraw draw = drawOf(1500.0, 10.0);
+  const FrameState draw = drawOf(1500.0, 10.0);
   ResourceReport before, after;
   resourceReport(context(), &before);
   fill(draw);

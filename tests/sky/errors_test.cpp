@@ -7,7 +7,7 @@
 namespace alpenglow::testing {
 namespace {
 
-SkyDraw goodDraw() {
+FrameState goodDraw() {
   double sun[3];
   sunDirection(0.0, 0.0, radians(20.0), 0.3, sun);
   return makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0), vec(sun),
@@ -16,39 +16,39 @@ SkyDraw goodDraw() {
 
 struct BadDraw {
   const char* expected;  ///< Parts of the sentence, separated by '|'.
-  std::function<void(SkyDraw&)> spoil;
+  std::function<void(FrameState&)> spoil;
 };
 
 TEST_F(SkyTest, BadDrawsAreRefusedWithTheValue) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const BadDraw cases[] = {
-      {"Camera::position_m|(0, 0, 0)", [](SkyDraw& d) { d.camera.position_m[0] = 0.0; }},
-      {"Camera::position_m|nan", [](SkyDraw& d) { d.camera.position_m[1] = kNan; }},
-      {"Camera::position_m|inf", [](SkyDraw& d) { d.camera.position_m[2] = kInfinity; }},
-      {"Camera::position_m|1e+20", [](SkyDraw& d) { d.camera.position_m[2] = 1e20; }},
-      {"Camera::forward|unit", [](SkyDraw& d) { d.camera.forward[0] = 7.0; }},
-      {"Camera::forward|nan", [](SkyDraw& d) { d.camera.forward[2] = kNan; }},
-      {"Camera::up|unit", [](SkyDraw& d) { d.camera.up[0] = d.camera.up[2] = 0.0; }},
-      {"Camera::up|orthogonal", [](SkyDraw& d) { std::copy_n(d.camera.forward, 3, d.camera.up); }},
-      {"Camera::fov|is 0", [](SkyDraw& d) { d.camera.fov = 0.0; }},
-      {"Camera::fov|-1", [](SkyDraw& d) { d.camera.fov = -1.0; }},
-      {"Camera::fov|3.14159", [](SkyDraw& d) { d.camera.fov = kPi; }},
-      {"Camera::fov|nan", [](SkyDraw& d) { d.camera.fov = kNan; }},
+      {"Camera::position_m|(0, 0, 0)", [](FrameState& d) { d.camera.position_m[0] = 0.0; }},
+      {"Camera::position_m|nan", [](FrameState& d) { d.camera.position_m[1] = kNan; }},
+      {"Camera::position_m|inf", [](FrameState& d) { d.camera.position_m[2] = kInfinity; }},
+      {"Camera::position_m|1e+20", [](FrameState& d) { d.camera.position_m[2] = 1e20; }},
+      {"Camera::forward|unit", [](FrameState& d) { d.camera.forward[0] = 7.0; }},
+      {"Camera::forward|nan", [](FrameState& d) { d.camera.forward[2] = kNan; }},
+      {"Camera::up|unit", [](FrameState& d) { d.camera.up[0] = d.camera.up[2] = 0.0; }},
+      {"Camera::up|orthogonal", [](FrameState& d) { std::copy_n(d.camera.forward, 3, d.camera.up); }},
+      {"Camera::fov|is 0", [](FrameState& d) { d.camera.fov = 0.0; }},
+      {"Camera::fov|-1", [](FrameState& d) { d.camera.fov = -1.0; }},
+      {"Camera::fov|3.14159", [](FrameState& d) { d.camera.fov = kPi; }},
+      {"Camera::fov|nan", [](FrameState& d) { d.camera.fov = kNan; }},
       {"Sun::direction|(0, 0, 0)",
-       [](SkyDraw& d) { d.sun.direction[0] = d.sun.direction[1] = d.sun.direction[2] = 0.0; }},
-      {"Sun::direction|nan", [](SkyDraw& d) { d.sun.direction[0] = kNan; }},
-      {"Sun::discRadius|-0.1", [](SkyDraw& d) { d.sun.discRadius = -0.1; }},
-      {"Sun::discRadius|2", [](SkyDraw& d) { d.sun.discRadius = 2.0; }},
-      {"Sun::irradiance|-3", [](SkyDraw& d) { d.sun.irradiance[1] = -3.0; }},
-      {"Sun::irradiance|nan", [](SkyDraw& d) { d.sun.irradiance[2] = kNan; }},
-      {"SkyDraw::radianceScale|-2", [](SkyDraw& d) { d.radianceScale = -2.0; }},
-      {"SkyDraw::radianceScale|inf", [](SkyDraw& d) { d.radianceScale = kInfinity; }},
-      {"SkyDraw::viewport|0 x 12", [](SkyDraw& d) { d.viewport.extent.width = 0; }},
-      {"SkyDraw::viewport|16 x 0", [](SkyDraw& d) { d.viewport.extent.height = 0; }},
-      {"SkyDraw::viewport|4000000000", [](SkyDraw& d) { d.viewport.extent.width = 4000000000u; }},
-      {"SkyDraw::viewport|(-1, 0)", [](SkyDraw& d) { d.viewport.offset.x = -1; }},
-      {"SkyDraw::viewport|2147483647", [](SkyDraw& d) { d.viewport.offset.y = 2147483647; }},
+       [](FrameState& d) { d.sun.direction[0] = d.sun.direction[1] = d.sun.direction[2] = 0.0; }},
+      {"Sun::direction|nan", [](FrameState& d) { d.sun.direction[0] = kNan; }},
+      {"Sun::discRadius|-0.1", [](FrameState& d) { d.sun.discRadius = -0.1; }},
+      {"Sun::discRadius|2", [](FrameState& d) { d.sun.discRadius = 2.0; }},
+      {"Sun::irradiance|-3", [](FrameState& d) { d.sun.irradiance[1] = -3.0; }},
+      {"Sun::irradiance|nan", [](FrameState& d) { d.sun.irradiance[2] = kNan; }},
+      {"FrameState::radianceScale|-2", [](FrameState& d) { d.radianceScale = -2.0; }},
+      {"FrameState::radianceScale|inf", [](FrameState& d) { d.radianceScale = kInfinity; }},
+      {"FrameState::viewport|0 x 12", [](FrameState& d) { d.viewport.extent.width = 0; }},
+      {"FrameState::viewport|16 x 0", [](FrameState& d) { d.viewport.extent.height = 0; }},
+      {"FrameState::viewport|4000000000", [](FrameState& d) { d.viewport.extent.width = 4000000000u; }},
+      {"FrameState::viewport|(-1, 0)", [](FrameState& d) { d.viewport.offset.x = -1; }},
+      {"FrameState::viewport|2147483647", [](FrameState& d) { d.viewport.offset.y = 2147483647; }},
   };
   const Picture before = picture(goodDraw());
   TargetDesc desc;
@@ -58,7 +58,7 @@ TEST_F(SkyTest, BadDrawsAreRefusedWithTheValue) {
   resourceReport(context(), &start);
   const Picture untouched = target.draw([&](VkCommandBuffer commands) {
     for (const BadDraw& bad : cases) {
-      SkyDraw draw = goodDraw();
+      FrameState draw = goodDraw();
       bad.spoil(draw);
       message().clear();
       EXPECT_EQ(recordSky(view(), commands, tables(), draw),
@@ -75,7 +75,7 @@ TEST_F(SkyTest, BadDrawsAreRefusedWithTheValue) {
 }
 
 TEST_F(SkyTest, FisheyesMayGoAllRound) {
-  SkyDraw draw = goodDraw();
+  FrameState draw = goodDraw();
   draw.camera.fov = 2.0 * kPi;
   EXPECT_EQ(badValue(picture(draw, Projection::Fisheye)), "");
   TargetDesc desc;

@@ -64,7 +64,7 @@ struct SliceErrors {
 
 class MomentSliceTest : public SkyTest {
  protected:
-  SkyDraw drawOf(const Shot& shot, double altitude, double elevation) {
+  FrameState drawOf(const Shot& shot, double altitude, double elevation) {
     double sun[3];
     sunDirection(0.0, 0.0, radians(elevation), kSunAzimuth, sun);
     return makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, altitude,
@@ -78,7 +78,7 @@ class MomentSliceTest : public SkyTest {
     View* const sliced = slicedView(shots[0].projection);
     recordSlice(sliced, tables(), drawOf(shots[0], look.altitude, elevation));
     for (const Shot& shot : shots) {
-      const SkyDraw draw = drawOf(shot, look.altitude, elevation);
+      const FrameState draw = drawOf(shot, look.altitude, elevation);
       found.add(picture(draw, shot.projection), picture(sliced, tables(), draw));
     }
     std::sort(found.errors.begin(), found.errors.end());
@@ -185,11 +185,11 @@ TEST_F(MomentSliceTest, IsNotReadForAnotherCameraSunOrTables) {
   Tables* const hazy = tables("earth-hazy");
   View* const sliced = slicedView(Projection::Perspective);
   const Shot ahead = {Projection::Perspective, 0.2, 0.1, 1.2, {24, 16}};
-  const SkyDraw draw = drawOf(ahead, 2.0, 20.0);
+  const FrameState draw = drawOf(ahead, 2.0, 20.0);
   const Picture ofEarth = picture(draw), ofHaze = picture(draw, ahead.projection, hazy);
   recordSlice(sliced, earth, draw);
   EXPECT_GT(difference(picture(sliced, earth, draw), ofEarth), kSlice);
-  for (const SkyDraw& other :
+  for (const FrameState& other :
        {drawOf(ahead, 2.5, 20.0), drawOf(ahead, 2.0, 20.1), drawOf(ahead, 4e5, 20.0)})
     EXPECT_LT(difference(picture(sliced, earth, other), picture(other)), kRounding);
   EXPECT_LT(difference(picture(sliced, hazy, draw), ofHaze), kRounding);
@@ -228,7 +228,7 @@ TEST_F(MomentSliceTest, ACoarserLevelHasACoarserSlice) {
     const Shot shot = {Projection::Fisheye, 0.0, radians(-90.0), 2.0 * kPi, {96, 96}};
     for (const double altitude : {2.0, 1e4}) {
       for (const double elevation : kSuns) {
-        const SkyDraw draw = drawOf(shot, altitude, elevation);
+        const FrameState draw = drawOf(shot, altitude, elevation);
         SliceErrors found;
         recordSlice(sliced, tables, draw);
         found.add(picture(draw, shot.projection, tables), picture(sliced, tables, draw));

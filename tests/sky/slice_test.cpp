@@ -10,13 +10,13 @@ constexpr VkExtent2D kExtent = {48, 32};
 
 class StandardSliceTest : public StandardSkyTest {
  protected:
-  SkyDraw drawAt(double altitude, double elevation, double pitch = 5.0) {
+  FrameState drawAt(double altitude, double elevation, double pitch = 5.0) {
     const Parameters earth = preset("earth");
-    const Camera camera = cameraFromGeodetic(earth, radians(20), radians(30), altitude, radians(80),
+    const EyeCamera camera = cameraFromGeodetic(earth, radians(20), radians(30), altitude, radians(80),
                                              radians(pitch), 0.0, radians(70));
     Vec sun;
     sunDirection(radians(20), radians(30), radians(elevation), radians(100), sun.data());
-    SkyDraw draw = makeDraw(camera, sun, kExtent);
+    FrameState draw = makeDraw(camera, sun, kExtent);
     draw.sun.discRadius = radians(0.2667);
     return draw;
   }
@@ -30,7 +30,7 @@ class StandardSliceTest : public StandardSkyTest {
     return makeView(desc);
   }
 
-  void slice(View* view, const Tables* tables, const SkyDraw& draw) {
+  void slice(View* view, const Tables* tables, const FrameState& draw) {
     run([&](VkCommandBuffer commands) {
       return recordSkySlice(view, commands, tables, draw) == Status::Ok;
     });
@@ -63,7 +63,7 @@ TEST_F(StandardSliceTest, GivesThePictureOfTheTables) {
     View* sliced = sliceView(mie);
     for (double altitude : {0.0, 2.0, 9000.0, 59999.0, 60000.0}) {
       for (double elevation : {50.0, 3.0, -4.0}) {
-        const SkyDraw draw = drawAt(altitude, elevation);
+        const FrameState draw = drawAt(altitude, elevation);
         slice(sliced, with, draw);
         expectSame(picture(sliced, with, draw, target), picture(direct, with, draw, target));
       }
@@ -78,13 +78,13 @@ TEST_F(StandardSliceTest, IsNotReadForAnotherCameraSunOrTables) {
   Tables* mars = tables("mars");
   View* sliced = sliceView();
   View* direct = view();
-  const SkyDraw draw = drawAt(2.0, 20.0);
+  const FrameState draw = drawAt(2.0, 20.0);
   slice(sliced, earth, draw);
-  for (const SkyDraw& other : {drawAt(3000.0, 20.0), drawAt(2.0, 5.0), drawAt(4e5, 20.0, -30.0)})
+  for (const FrameState& other : {drawAt(3000.0, 20.0), drawAt(2.0, 5.0), drawAt(4e5, 20.0, -30.0)})
     expectSame(picture(sliced, earth, other, target), picture(direct, earth, other, target));
   expectSame(picture(sliced, mars, draw, target), picture(direct, mars, draw, target));
   // A turned head looks into the same slice.
-  const SkyDraw turned = drawAt(2.0, 20.0, -40.0);
+  const FrameState turned = drawAt(2.0, 20.0, -40.0);
   expectSame(picture(sliced, earth, turned, target), picture(direct, earth, turned, target));
 }
 
@@ -101,7 +101,7 @@ TEST_F(StandardSliceTest, IsOneDispatchInsideAndNoneOutside) {
 TEST_F(StandardSliceTest, RefusesViewsAndTablesThatDoNotFit) {
   View* plain = view();
   View* sliced = sliceView();
-  const SkyDraw draw = drawAt(2.0, 20.0);
+  const FrameState draw = drawAt(2.0, 20.0);
   TableDesc other = smallTables();
   other.sizes.scatteringMu += 2;
   Tables* odd = nullptr;

@@ -7,10 +7,10 @@
 namespace alpenglow::testing {
 namespace {
 
-SkyDraw horizonDraw(const Parameters& parameters, VkExtent2D extent, double elevation = 20.0) {
+FrameState horizonDraw(const Parameters& parameters, VkExtent2D extent, double elevation = 20.0) {
   double sun[3];
   sunDirection(0.0, 0.0, radians(elevation), 0.3, sun);
-  SkyDraw draw = makeDraw(
+  FrameState draw = makeDraw(
       cameraFromGeodetic(parameters, 0.0, 0.0, 2.0, 0.0, radians(3.0), 0.0, 1.0), vec(sun), extent);
   draw.sun.discRadius = radians(2.0);
   return draw;
@@ -19,7 +19,7 @@ SkyDraw horizonDraw(const Parameters& parameters, VkExtent2D extent, double elev
 TEST_F(SkyTest, RenderPassesAndDynamicRenderingDrawTheSame) {
   const Parameters earth = preset("earth");
   TargetDesc desc;
-  const SkyDraw draw = horizonDraw(earth, desc.extent);
+  const FrameState draw = horizonDraw(earth, desc.extent);
   const Picture dynamic = picture(draw);
   for (const VkFormat depth : {VK_FORMAT_UNDEFINED, VK_FORMAT_D32_SFLOAT}) {
     desc.depth = depth;
@@ -45,7 +45,7 @@ TEST_F(SkyTest, NearerObjectsKeepTheirPixels) {
       TargetDesc desc;
       desc.depth = format;
       desc.clearDepth = reversed ? 0.0f : 1.0f;
-      const SkyDraw draw = horizonDraw(earth, desc.extent);
+      const FrameState draw = horizonDraw(earth, desc.extent);
       const Picture plain = picture(draw);
       ViewDesc viewDesc;
       viewDesc.depthFormat = format;
@@ -77,7 +77,7 @@ TEST_F(SkyTest, MultisampledTargetsHoldTheSamePicture) {
   desc.samples = VK_SAMPLE_COUNT_4_BIT;
   for (const VkFormat depth : {VK_FORMAT_UNDEFINED, VK_FORMAT_D32_SFLOAT}) {
     desc.depth = depth;
-    const SkyDraw draw = horizonDraw(earth, desc.extent);
+    const FrameState draw = horizonDraw(earth, desc.extent);
     const Picture plain = picture(draw);
     ViewDesc viewDesc;
     viewDesc.samples = desc.samples;
@@ -93,7 +93,7 @@ TEST_F(SkyTest, MultisampledTargetsHoldTheSamePicture) {
 // it doesn't.
 TEST_F(SkyTest, RadianceScaleSavesNightInHalfFloats) {
   const Parameters earth = preset("earth");
-  SkyDraw draw = horizonDraw(earth, {48, 32}, -11.0);
+  FrameState draw = horizonDraw(earth, {48, 32}, -11.0);
   draw.sun.discRadius = 0.0;
   const Picture floats = picture(draw);
   ViewDesc viewDesc;

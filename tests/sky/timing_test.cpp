@@ -56,14 +56,14 @@ class TimingTest : public SkyTest {
     return best * 1e9 / (double(kExtent.width) * kExtent.height);
   }
 
-  double sliceCost(View* view, const Tables* tables, const SkyDraw& draw) {
+  double sliceCost(View* view, const Tables* tables, const FrameState& draw) {
     return cost([&](VkCommandBuffer commands) {
       return recordSkySlice(view, commands, tables, draw) == Status::Ok;
     });
   }
 
   /// Of a frame: from the slice that was recorded last, if it is this draw's.
-  double frameCost(View* view, const Tables* tables, const SkyDraw& draw) {
+  double frameCost(View* view, const Tables* tables, const FrameState& draw) {
     return cost([&](VkCommandBuffer commands) {
       toAttachment(commands);
       VkRenderingAttachmentInfo color = {};
@@ -145,8 +145,8 @@ TEST_F(TimingTest, ASliceMakesAPixelOfSkyCheaper) {
     viewDesc.mie = mie;
     viewDesc.skySlice = tables;
     View* view = makeView(viewDesc);
-    const Camera up = cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(60), 0.0, radians(50));
-    const SkyDraw draw = makeDraw(up, unit({0.5, 0.7, 0.2}), kExtent);
+    const EyeCamera up = cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(60), 0.0, radians(50));
+    const FrameState draw = makeDraw(up, unit({0.5, 0.7, 0.2}), kExtent);
     const double direct = frameCost(view, tables, draw);
     sliceCost(view, tables, draw);
     const double sliced = frameCost(view, tables, draw);
@@ -185,7 +185,7 @@ TEST_F(TimingTest, APixelOfMomentsFromASlice) {
   double sun[3];
   sunDirection(0.0, 0.0, radians(50.0), 0.2, sun);
   for (const Look& look : looks) {
-    SkyDraw draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, look.altitude, 0.2,
+    FrameState draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, look.altitude, 0.2,
                                                radians(look.pitch), 0.0, radians(look.fov)),
                             vec(sun), kExtent);
     draw.sun.discRadius = radians(look.discRadius);
