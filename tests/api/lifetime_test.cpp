@@ -6,7 +6,7 @@
 namespace alpenglow::testing {
 namespace {
 
-SkyDraw someDraw() {
+FrameState someDraw() {
   return makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0),
                   {0.6, 0.0, 0.8}, {24, 16});
 }
@@ -21,9 +21,9 @@ TEST_F(StandardSkyTest, DestroyedInFlightLivesUntilTheFrameCompletes) {
   bakeAll(device(), baked);
   View* view = nullptr;
   ViewDesc viewDesc;
-  viewDesc.solver = Solver::Standard;
+  viewDesc.sky = SkyMethod::Integrate;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-  ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
+  ASSERT_EQ(createView(made, baked, viewDesc, &view), Status::Ok);
   TargetDesc targetDesc;
   targetDesc.extent = {24, 16};
   Target target(device(), targetDesc);
@@ -90,9 +90,9 @@ TEST_F(StandardSkyTest, ForgottenObjectsGoWithTheContext) {
   ASSERT_EQ(createTables(made, preset("earth"), smallTables(), &baked), Status::Ok);
   View* forgotten = nullptr;
   ViewDesc viewDesc;
-  viewDesc.solver = Solver::Standard;
+  viewDesc.sky = SkyMethod::Integrate;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-  ASSERT_EQ(createView(made, viewDesc, &forgotten), Status::Ok);
+  ASSERT_EQ(createView(made, baked, viewDesc, &forgotten), Status::Ok);
   destroyContext(made);
   EXPECT_TRUE(diagnostics().empty()) << lastDiagnostic();
   other.reset();
@@ -125,14 +125,13 @@ TEST_F(StandardSkyTest, UploadedTablesDrawTheSameBytes) {
     }
     EXPECT_TRUE(ready(uploaded));
     ViewDesc viewDesc;
-    viewDesc.solver = Solver::Standard;
+    viewDesc.sky = SkyMethod::Integrate;
     viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-    viewDesc.mie = mie;
     TargetDesc target;
     target.extent = {24, 16};
-    const Picture fromBake = picture(makeView(viewDesc), baked, someDraw(), target);
+    const Picture fromBake = picture(makeView(viewDesc, baked), baked, someDraw(), target);
     View* view = nullptr;
-    ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
+    ASSERT_EQ(createView(made, uploaded, viewDesc, &view), Status::Ok);
     EXPECT_EQ(picture(view, uploaded, someDraw(), target).data, fromBake.data);
     destroyView(view);
     destroyTables(uploaded);
@@ -164,10 +163,10 @@ TEST_F(StandardSkyTest, ResourcesAreCounted) {
   EXPECT_EQ(report.pipelines, variantsOfBake);
 
   ViewDesc viewDesc;
-  viewDesc.solver = Solver::Standard;
+  viewDesc.sky = SkyMethod::Integrate;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   View* views[2] = {};
-  for (View*& view : views) ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
+  for (View*& view : views) ASSERT_EQ(createView(made, baked, viewDesc, &view), Status::Ok);
   resourceReport(made, &report);
   EXPECT_EQ(report.pipelines, variantsOfBake + 12);
   EXPECT_EQ(report.shaderVariants, variantsOfBake + 6);
