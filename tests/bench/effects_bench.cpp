@@ -61,12 +61,24 @@ class EffectsBench : public ShaftTest {
     return tables;
   }
 
-  View* makeOne(const ViewDesc& desc, double* taken) {
+  View* makeOne(Tables* tables, const ViewDesc& desc, double* taken) {
     const double before = bytes();
-    View* view = makeView(desc);
+    View* view = makeView(desc, tables);
     *taken = bytes() - before;
-    recordSlice(view, desc.skySlice, looking_);
+    recordOnce(view, tables);
     return view;
+  }
+
+  /// The LUTs, of a frame that needs them anew.
+  void recordOnce(View* view, const Tables* tables) {
+    looking_.camera.position_m[0] += 0.01;
+    FrameDesc frame = frameDesc(looking_, tables);
+    ShaftRig& rig = rigOf(host_, kExtent);
+    frame.sceneDepth = sceneOf(rig);
+    run([&](VkCommandBuffer commands) {
+      EXPECT_EQ(beginFrame(view, frame, nullptr), Status::Ok) << message();
+      return recordLuts(view, commands) == Status::Ok;
+    });
   }
 
   void make(EffectCase* each) {

@@ -2,7 +2,6 @@
 #include <alpenglow/plan.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <random>
 #include <string>
 
