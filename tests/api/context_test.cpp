@@ -142,7 +142,7 @@ TEST_F(StandardSkyTest, WithoutDynamicRenderingRenderPassesDraw) {
     viewDesc.renderPass = target.renderPass();
     ASSERT_EQ(createView(made, baked, viewDesc, &view), Status::Ok) << lastDiagnostic();
     const Picture drawn = target.draw([&](VkCommandBuffer commands) {
-      return recordSky(view, commands, baked, draw) == Status::Ok;
+      return testing::recordSky(view, commands, baked, draw) == Status::Ok;
     });
     EXPECT_EQ(drawn.data, picture(draw).data);
   }

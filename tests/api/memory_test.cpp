@@ -359,7 +359,7 @@ TEST_F(StandardSkyTest, RecordingAllocatesNothing) {
       const int before = counter.total;
       newCalls = 0;
       counting = true;
-      const Status status = recordSky(view, commands, baked, draw);
+      const Status status = testing::recordSky(view, commands, baked, draw);
       counting = false;
       EXPECT_EQ(newCalls, 0);
       EXPECT_EQ(counter.total, before);

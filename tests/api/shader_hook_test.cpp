@@ -72,7 +72,7 @@ class ShaderHookTest : public SkyTest {
     EyeCamera camera = cameraFromGeodetic(preset("earth"), 0.0, 0.0, 100.0, 0.0, 0.3, 0.0, 1.0);
     const FrameState sky = makeDraw(camera, {0.7071, 0.0, 0.7071}, target.extent);
     return Target(device(), target).draw([&](VkCommandBuffer commands) {
-      return recordSky(view, commands, tables, sky) == Status::Ok;
+      return testing::recordSky(view, commands, tables, sky) == Status::Ok;
     });
   }
 
