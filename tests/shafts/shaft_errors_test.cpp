@@ -179,10 +179,10 @@ TEST_F(ShaftErrorsTest, BadCallsRecordNothing) {
     expectRefused(shaftsWith(d, casters()), kBad, "recordSunMap was called last for");
     d = draw_;
     d.viewport.offset = {4, 0};
-    expectRefused(shaftsWith(d, casters()), kBad, "FrameState::viewport|(28, 16)|24 x 16");
+    expectRefused(shaftsWith(d, casters()), kBad, "Camera::viewport|(28, 16)|24 x 16");
     d = draw_;
     d.depth.near_m = 0.0;
-    expectRefused(shaftsWith(d, casters()), kBad, "FrameState::depth|0");
+    expectRefused(shaftsWith(d, casters()), kBad, "Camera::nearPlane|0");
     d = draw_;
     d.camera.fov = 0.0;
     expectRefused(shaftsWith(d, casters()), kBad, "Camera::fov");
