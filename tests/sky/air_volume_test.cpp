@@ -133,7 +133,7 @@ class AirVolumeTest : public AirTest {
 // twilight, and from space, where the terminator is in view and the thin air's segments are next to
 // dark, it is missed: there errors count against a thousandth of the brightest ray.
 TEST_F(AirVolumeTest, IsTheLightOfPathsAtAllDistances) {
-  std::printf("%u bytes\n", static_cast<unsigned>(volume()->bytes()));
+  std::printf("%u bytes\n", static_cast<unsigned>(volume()->lut().bytes()));
   std::printf("per cent, p95 p99 max: own segment (>= 100 m) | scene | single | transmittance\n");
   for (const Place& place : kPlaces) {
     for (const double sun : kSuns) {
@@ -237,10 +237,10 @@ TEST_F(AirVolumeTest, ServesItsCameraSunAndTablesAlone) {
   fill(draw);
   resourceReport(context(), &after);
   EXPECT_EQ(after.dispatches, before.dispatches + 1);
-  EXPECT_TRUE(volume()->serves(*tables(), draw));
-  EXPECT_FALSE(volume()->serves(*tables(), drawOf(1501.0, 10.0)));
-  EXPECT_FALSE(volume()->serves(*tables(), drawOf(1500.0, 10.5)));
-  EXPECT_FALSE(volume()->serves(*tables("earth-hazy"), draw));
+  EXPECT_TRUE(volume()->current(*tables(), draw));
+  EXPECT_FALSE(volume()->current(*tables(), drawOf(1501.0, 10.0)));
+  EXPECT_FALSE(volume()->current(*tables(), drawOf(1500.0, 10.5)));
+  EXPECT_FALSE(volume()->current(*tables("earth-hazy"), draw));
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint32_t kWidth = 64, kHeight = 32;
 
-/// A float map with a sampler as GroundAlbedoMap asks for.
+/// A float map with a sampler as ViewDesc::groundAlbedo asks for.
 class Map {
  public:
   /// albedo(longitude, latitude), radians, at texel centres.
@@ -47,12 +47,11 @@ class Map {
   Map(const Map&) = delete;
   Map& operator=(const Map&) = delete;
 
-  GroundAlbedoMap map() const {
-    GroundAlbedoMap map;
+  HostImage map() const {
+    HostImage map;
     map.view = image_.view();
     map.sampler = sampler_;
-    map.width = kWidth;
-    map.height = kHeight;
+    map.extent = {kWidth, kHeight};
     return map;
   }
 
@@ -110,17 +109,18 @@ class MapDrawing {
 
   Picture draw(const Map& map, const FrameState& sky) {
     ViewDesc desc;
+    desc.sky = SkyMethod::Integrate;
     desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     desc.groundAlbedo = map.map();
     View*& view = views_[&map];
     if (view == nullptr) {
-      EXPECT_EQ(createView(context_, desc, &view), Status::Ok);
+      EXPECT_EQ(createView(context_, tables_, desc, &view), Status::Ok);
     }
     TargetDesc targetDesc;
     targetDesc.extent = sky.viewport.extent;
     Target target(device_, targetDesc);
     return target.draw([&](VkCommandBuffer commands) {
-      return recordSky(view, commands, tables_, sky) == Status::Ok;
+      return testing::recordSky(view, commands, tables_, sky) == Status::Ok;
     });
   }
 

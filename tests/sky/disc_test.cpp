@@ -45,23 +45,25 @@ double power(const Picture& picture, const FrameState& draw, Projection projecti
 }
 
 TEST_F(SkyTest, DiscHasTheSunsRadiance) {
-  const Parameters earth = preset("earth");
+  Parameters earth = preset("earth");
+  earth.solarIrradiance = {{1.0, 2.0, 4.0}};
+  Tables* const colored = tables("earth, 1 2 4", earth);
   const double solidAngle = 2.0 * kPi * (1.0 - std::cos(kSunRadius));
   for (const double altitude : {2.0, 1e4, 3.6e7}) {
     for (const double elevation : {radians(50.0), radians(5.0)}) {
       // 1/60 degree a pixel: the radius is 16 of them.
       FrameState draw = towardsSun(earth, altitude, elevation, radians(0.8), {48, 48});
-      draw.sun.irradiance = {{1.0, 2.0, 4.0}};
-      const Picture with = picture(draw);
+      draw.sun.irradiance = earth.solarIrradiance;
+      const Picture with = picture(draw, Projection::Perspective, colored);
       draw.sun.discRadius = 0.0;
-      const Picture disc = discOnly(with, picture(draw));
+      const Picture disc = discOnly(with, picture(draw, Projection::Perspective, colored));
       const Vec sun = vec(draw.sun.direction);
       std::vector<ProbeQuery> queries;
       for (uint32_t y = 0; y < disc.height; ++y)
         for (uint32_t x = 0; x < disc.width; ++x)
           queries.push_back(rayQuery(earth, draw.camera,
                                      *pixelDirection(draw, Projection::Perspective, x, y), sun));
-      const std::vector<ProbeAnswer> answers = probeAll(queries);
+      const std::vector<ProbeAnswer> answers = probeAll(queries, colored);
       int inside = 0, outside = 0;
       for (uint32_t i = 0; i < answers.size(); ++i) {
         const uint32_t x = i % disc.width, y = i / disc.width;

@@ -122,10 +122,7 @@ TEST_P(PixelTest, PixelsAreWhatProbesAnswer) {
 
 // Packed tables, and another planet.
 TEST_F(StandardSkyTest, PixelsAreWhatProbesAnswerForOtherTables) {
-  ViewDesc packed;
-  packed.solver = Solver::Standard;
-  packed.mie = MieStorage::Packed;
-  View* const packedView = makeView(packed);
+  View* const packedView = makeView(viewDesc(), tables("earth", MieStorage::Packed));
   for (const char* name : {"earth", "mars"}) {
     const bool isPacked = name[0] == 'e';
     const Parameters parameters = preset(name);
@@ -154,9 +151,11 @@ TEST_F(SkyTest, IrradianceAndScaleMultiply) {
   sunDirection(0.0, 0.0, radians(20.0), radians(20.0), sun);
   FrameState draw = makeDraw(camera, vec(sun), {24, 16});
   const Picture plain = picture(draw);
-  draw.sun.irradiance = {{2.0, 0.5, 0.0}};
+  Parameters colored = earth;
+  colored.solarIrradiance = {{2.0, 0.5, 0.0}};
   draw.radianceScale = 1024.0;
-  const Picture scaled = picture(draw);
+  const Picture scaled =
+      picture(draw, Projection::Perspective, tables("earth, 2 0.5 0", colored));
   for (uint32_t y = 0; y < plain.height; ++y) {
     for (uint32_t x = 0; x < plain.width; ++x) {
       const float* p = plain.at(x, y);

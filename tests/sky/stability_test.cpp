@@ -32,7 +32,7 @@ TEST(AltitudeTest, SurvivesTheWayToTheGpu) {
           makeDraw(cameraFromGeodetic(earth, latitude, longitude, altitude, 0.0, 0.0, 0.0, 1.0),
                    {0.0, 0.0, 1.0}, {8, 8});
       const double got =
-          static_cast<double>(sky::makeConstants(earth, ViewDesc{}, draw).upAltitude[3]);
+          static_cast<double>(sky::makeConstants(earth, PictureDesc{}, draw).upAltitude[3]);
       // Measured: 1e-9 m of the position's doubles, and the float's own 6e-8.
       EXPECT_NEAR(got, std::max(altitude, 0.0), std::max(1e-6, 1e-7 * altitude))
           << latitude << " " << longitude;

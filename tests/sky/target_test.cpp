@@ -25,13 +25,13 @@ TEST_F(SkyTest, RenderPassesAndDynamicRenderingDrawTheSame) {
     desc.depth = depth;
     desc.renderPass = true;
     Target target(device(), desc);
-    ViewDesc viewDesc;
+    ViewDesc viewDesc = SkyTest::viewDesc();
     viewDesc.colorFormat = desc.color;
     viewDesc.depthFormat = depth;
     viewDesc.renderPass = target.renderPass();
     View* const made = makeView(viewDesc);
     const Picture drawn = target.draw([&](VkCommandBuffer commands) {
-      return recordSky(made, commands, tables(), draw) == Status::Ok;
+      return testing::recordSky(made, commands, tables(), draw) == Status::Ok;
     });
     EXPECT_EQ(drawn.data, dynamic.data) << message();
   }
@@ -47,7 +47,7 @@ TEST_F(SkyTest, NearerObjectsKeepTheirPixels) {
       desc.clearDepth = reversed ? 0.0f : 1.0f;
       const FrameState draw = horizonDraw(earth, desc.extent);
       const Picture plain = picture(draw);
-      ViewDesc viewDesc;
+      ViewDesc viewDesc = SkyTest::viewDesc();
       viewDesc.depthFormat = format;
       viewDesc.depth = reversed ? DepthConvention::Reversed : DepthConvention::Standard;
       View* const made = makeView(viewDesc);
@@ -56,7 +56,7 @@ TEST_F(SkyTest, NearerObjectsKeepTheirPixels) {
       const float nearly = reversed ? 1e-4f : 1.0f - 1e-4f;  // Far away, but not at the far plane.
       const Picture drawn = target.draw([&](VkCommandBuffer commands) {
         target.fill(commands, object, 3.0f, nearly);
-        return recordSky(made, commands, tables(), draw) == Status::Ok;
+        return testing::recordSky(made, commands, tables(), draw) == Status::Ok;
       });
       for (uint32_t y = 0; y < drawn.height; ++y) {
         for (uint32_t x = 0; x < drawn.width; ++x) {
@@ -79,7 +79,7 @@ TEST_F(SkyTest, MultisampledTargetsHoldTheSamePicture) {
     desc.depth = depth;
     const FrameState draw = horizonDraw(earth, desc.extent);
     const Picture plain = picture(draw);
-    ViewDesc viewDesc;
+    ViewDesc viewDesc = SkyTest::viewDesc();
     viewDesc.samples = desc.samples;
     viewDesc.depthFormat = depth;
     const Picture drawn = picture(makeView(viewDesc), tables(), draw, desc);
@@ -96,7 +96,7 @@ TEST_F(SkyTest, RadianceScaleSavesNightInHalfFloats) {
   FrameState draw = horizonDraw(earth, {48, 32}, -11.0);
   draw.sun.discRadius = 0.0;
   const Picture floats = picture(draw);
-  ViewDesc viewDesc;
+  ViewDesc viewDesc = SkyTest::viewDesc();
   viewDesc.colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
   View* const halves = makeView(viewDesc);
   TargetDesc desc;

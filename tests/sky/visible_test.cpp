@@ -11,7 +11,7 @@ namespace {
 
 /// Does any pixel of an area see the air, the ground or the disc? By every `stride`th pixel's
 /// direction, in double.
-sky::Visible bruteForce(const Parameters& parameters, const ViewDesc& desc, const FrameState& draw,
+sky::Visible bruteForce(const Parameters& parameters, const PictureDesc& desc, const FrameState& draw,
                         const VkRect2D& area, uint32_t stride = 1) {
   sky::Visible seen = {false, false, false};
   const Vec position = vec(draw.camera.position_m), sun = vec(draw.sun.direction);
@@ -97,7 +97,7 @@ TEST(VisibleTest, IsConservativeAndUseful) {
   RandomDraws random(earth);
   int unseen[3] = {}, culled[3] = {};
   for (int i = 0; i < 6000; ++i) {
-    ViewDesc desc;
+    PictureDesc desc;
     desc.projection = projectionOf(i);
     const FrameState draw = random.draw(desc.projection, 24);
     const VkRect2D area = random.part(draw.viewport.extent);
@@ -126,7 +126,7 @@ TEST(VisibleTest, PartsAreTheViewport) {
   RandomDraws random(earth);
   uint32_t mostParts = 0;
   for (int i = 0; i < 300; ++i) {
-    ViewDesc desc;
+    PictureDesc desc;
     desc.projection = projectionOf(i);
     const FrameState draw = random.draw(desc.projection, 400);
     const VkExtent2D whole = draw.viewport.extent;
@@ -154,7 +154,7 @@ TEST(VisibleTest, PartsAreFew) {
   const FrameState draw =
       makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(5.0), 0.0, radians(60.0)),
                unit({1.0, 1.0, 1.0}), {1024, 768});
-  const sky::Parts parts = sky::cut(earth, ViewDesc{}, draw);
+  const sky::Parts parts = sky::cut(earth, PictureDesc{}, draw);
   ASSERT_EQ(parts.count, 2u);
   EXPECT_EQ(parts.parts[0].visible, (sky::Visible{true, false, false}));
   EXPECT_EQ(parts.parts[1].visible, (sky::Visible{true, true, false}));
@@ -174,6 +174,8 @@ TEST_P(VariantTest, VariantsDrawWhatTheFullOneDraws) {
   for (const Projection projection : {Projection::Perspective, Projection::Fisheye}) {
     ViewDesc desc = viewDesc();
     desc.projection = projection;
+    PictureDesc pictureDesc;
+    pictureDesc.projection = projection;
     vulkan().forcedConstants = {{2, VK_TRUE}, {3, VK_TRUE}, {5, VK_TRUE}};
     View* const full = makeView(desc);
     vulkan().forcedConstants.clear();
@@ -186,7 +188,7 @@ TEST_P(VariantTest, VariantsDrawWhatTheFullOneDraws) {
                                                    radians(30.0), radians(60.0)),
                                 vec(sun), target.extent);
         draw.sun.discRadius = radians(1.0);
-        const sky::Parts parts = sky::cut(earth, desc, draw);
+        const sky::Parts parts = sky::cut(earth, pictureDesc, draw);
         for (uint32_t i = 0; i < parts.count; ++i) ++variants[sky::variant(parts.parts[i].visible)];
         const Picture culled = picture(view(projection), tables(), draw, target);
         const Picture whole = picture(full, tables(), draw, target);
