@@ -118,11 +118,11 @@ TEST_F(EffectsTest, ImagesThatStayAreThoseOfWhatIsOn) {
 }
 
 TEST_F(EffectsTest, APictureOfTheSkyIsTheSameWithoutTheRest) {
-  const Camera camera =
+  const EyeCamera camera =
       cameraFromGeodetic(preset("earth"), 0.8, 0.2, 500.0, 1.0, radians(50.0), 0.0, radians(40.0));
   Vec sun;
   sunDirection(0.8, 0.2, radians(20.0), radians(190.0), sun.data());
-  const SkyDraw draw = makeDraw(camera, sun, {48, 32});
+  const FrameState draw = makeDraw(camera, sun, {48, 32});
   for (const bool sliced : {false, true}) {
     ViewDesc desc = viewDesc();
     if (sliced) desc.skySlice = tables();

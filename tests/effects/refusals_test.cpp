@@ -12,8 +12,8 @@ constexpr VkExtent2D kExtent = {24, 16};
 
 class EffectRefusalsTest : public ShaftTest {
  protected:
-  SkyDraw drawAt(double altitude, double pitch, double discRadius = 0.0) {
-    SkyDraw draw = drawFrom({altitude, 0, 0}, 90, pitch, 40, kExtent, 15, 90);
+  FrameState drawAt(double altitude, double pitch, double discRadius = 0.0) {
+    FrameState draw = drawFrom({altitude, 0, 0}, 90, pitch, 40, kExtent, 15, 90);
     draw.sun.discRadius = discRadius;
     return draw;
   }
@@ -24,7 +24,7 @@ class EffectRefusalsTest : public ShaftTest {
     message().clear();
   }
 
-  void expectSkyRefused(View* view, const Tables* tables, const SkyDraw& draw, const char* parts) {
+  void expectSkyRefused(View* view, const Tables* tables, const FrameState& draw, const char* parts) {
     run([&](VkCommandBuffer commands) {
       expectRefused(recordSky(view, commands, tables, draw), parts);
       return true;
@@ -93,7 +93,7 @@ TEST_F(EffectRefusalsTest, SlicesAndAirAreRefusedFromOutside) {
   ResourceReport start, end;
   resourceReport(context(), &start);
   run([&](VkCommandBuffer c) {
-    const SkyDraw outside = drawAt(300e3, -60);
+    const FrameState outside = drawAt(300e3, -60);
     const char* const sentence = "300000 m high|Effect::SpaceViews";
     expectRefused(recordSkySlice(view, c, baked, outside), sentence);
     expectRefused(recordAir(view, c, baked, outside), sentence);
@@ -109,9 +109,9 @@ TEST_F(EffectRefusalsTest, AlwaysSlicedWantsASliceOfThisDraw) {
   desc.skySlice = baked;
   desc.alwaysSliced = true;
   View* const view = makeView(desc);
-  const SkyDraw here = drawAt(500, 40), there = drawAt(501, 40);
+  const FrameState here = drawAt(500, 40), there = drawAt(501, 40);
   ResourceReport start, end;
-  const auto refuseBoth = [&](const SkyDraw& draw) {
+  const auto refuseBoth = [&](const FrameState& draw) {
     run([&](VkCommandBuffer c) {
       expectRefused(recordSky(view, c, baked, draw), "recordSky|alwaysSliced");
       expectRefused(recordAir(view, c, baked, draw), "recordAir|alwaysSliced");
@@ -189,7 +189,7 @@ TEST_F(EffectRefusalsTest, ShaftsAreWithoutWhatTheirViewIs) {
   ShaftsDesc desc;
   desc.sceneDepth = rigOf(scene_, kExtent).scene;
   desc.depth = DepthConvention::Reversed;
-  desc.sunMapSize = 64;
+  desc.shadowMapSize = 64;
   desc.without = kViewEffects;
   Shafts* shafts = nullptr;
   ASSERT_EQ(createShafts(context(), desc, &shafts), Status::Ok) << message();

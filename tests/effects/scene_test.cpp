@@ -26,8 +26,8 @@ class EffectSceneTest : public ShaftTest {
     setup.without = without;
     setup.sliced = sliced;
     setup.shafts = shafts;
-    setup.sunMapSize = 256;
-    setup.reliefSize = 128;
+    setup.shadowMapSize = 256;
+    setup.meshSize = 128;
     return draw(setup, view_);
   }
 
@@ -52,7 +52,7 @@ class EffectSceneTest : public ShaftTest {
     EXPECT_GT(difference(shaded, sunny), 0.05) << "The shadow is not in the picture.";
   }
 
-  SkyDraw view_;
+  FrameState view_;
 };
 
 // Without aerosols the whole tables have them not either; molecules ask for fewer harmonics.

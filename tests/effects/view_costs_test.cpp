@@ -140,7 +140,7 @@ TEST_F(ViewCostsTest, ShaftsAreAnObjectOfTheirOwn) {
   ASSERT_EQ(createContext(plain, &own), Status::Ok) << lastDiagnostic();
   ShaftsDesc desc;
   desc.sceneDepth = rigOf(scene_, kExtent).scene;
-  desc.sunMapSize = 64;
+  desc.shadowMapSize = 64;
   desc.without = kViewEffects;
   const ResourceReport start = reportOf(own);
   Shafts* shafts = nullptr;
@@ -170,9 +170,9 @@ TEST_F(ViewCostsTest, ShaftsAreAnObjectOfTheirOwn) {
 TEST_F(ViewCostsTest, AFrameRecordsNothingOfWhatIsOff) {
   addCaster(
       reference::test::box(reference::Vector(600, 1500, -200), reference::Vector(900, 1800, 200)));
-  const SkyDraw looking = drawFrom({50, 0, 0}, 90, 50, 40, kExtent, 35, 200);
+  const FrameState looking = drawFrom({50, 0, 0}, 90, 50, 40, kExtent, 35, 200);
   ShaftSetup shaded, plain;
-  shaded.sunMapSize = plain.sunMapSize = 64;
+  shaded.shadowMapSize = plain.shadowMapSize = 64;
   shaded.without = plain.without = kViewEffects;
   plain.shafts = false;
   rigOf(plain, kExtent);

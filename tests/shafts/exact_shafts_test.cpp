@@ -16,7 +16,7 @@ constexpr double kTexels = 1.5;
 class ExactShaftsTest : public ShadowCheckTest {
  protected:
   /// Shadows entered less those left, to where each pixel's ray ends: 0 in light, 1 in shadow.
-  void expectCounts(const char* name, const SkyDraw& d, const ShaftPicture& picture) {
+  void expectCounts(const char* name, const FrameState& d, const ShaftPicture& picture) {
     const float start = startsInShadow(d) ? 1.0f : 0.0f;
     int bad = 0;
     for (size_t i = 3; i < picture.sums.size(); i += 4) {
@@ -35,10 +35,10 @@ class ExactShaftsTest : public ShadowCheckTest {
 void ExactShaftsTest::expectLengths(const ShadowScene& scene) {
   SCOPED_TRACE(scene.name);
   useThinAir();
-  const SkyDraw d = stage(scene);
+  const FrameState d = stage(scene);
   ShaftSetup setup;
   setup.sliced = false;
-  setup.sunMapSize = 256;
+  setup.shadowMapSize = 256;
   ShaftPicture with, without;
   const std::vector<double> loss = losses(setup, d, &with, &without);
   EXPECT_EQ(badValue(with.light), "");
@@ -87,10 +87,10 @@ TEST_F(ExactShaftsTest, ShadowsOfRandomMeshesAreAsLongAsTheReferenceSays) {
 
 void ExactShaftsTest::expectRadiance(const ShadowScene& scene, bool sliced) {
   SCOPED_TRACE(scene.name);
-  const SkyDraw d = stage(scene);
+  const FrameState d = stage(scene);
   ShaftSetup setup;
   setup.sliced = sliced;
-  setup.sunMapSize = 256;
+  setup.shadowMapSize = 256;
   ShaftPicture with, without;
   const std::vector<double> loss = losses(setup, d, &with, &without);
   EXPECT_EQ(badValue(with.light), "");

@@ -18,7 +18,7 @@ class PaperShaftsTest : public ShadowCheckTest {
  protected:
   static ShaftSetup paper(bool hostDepth) {
     ShaftSetup setup;
-    setup.method = ShaftMethod::Paper;
+    setup.method = LightShaftMethod::ShadowVolume;
     setup.sliced = false;
     setup.hostDepth = hostDepth;
     return setup;
@@ -95,7 +95,7 @@ TEST_F(PaperShaftsTest, OneConvexCasterGivesTheLengthOfItsShadow) {
   for (const ShadowScene& scene : shadowScenes()) {
     if (scene.casters.size() != 1) continue;
     SCOPED_TRACE(scene.name);
-    const SkyDraw d = stage(scene);
+    const FrameState d = stage(scene);
     const ShaftSetup setup = paper(false);
     const ShaftPicture picture = draw(setup, d);
     int asked = 0, wrong = 0;
@@ -140,7 +140,7 @@ TEST_F(PaperShaftsTest, GroundKnowsWhereItsShadowBegins) {
       scene.pitch = -20.0;
     }
     scene.casters.push_back(ground);
-    const SkyDraw d = stage(scene);
+    const FrameState d = stage(scene);
     const ShaftSetup setup = paper(true);
     const ShaftPicture picture = draw(setup, d);
     int dark = 0, lit = 0, wrong = 0;
@@ -183,7 +183,7 @@ TEST_F(PaperShaftsTest, WideHillsCountRight) {
   for (const double azimuth : {70.0, 160.0, 220.0, 300.0}) {
     SCOPED_TRACE(azimuth);
     const ShadowScene scene = hillScene(azimuth);
-    const SkyDraw d = stage(scene);
+    const FrameState d = stage(scene);
     EXPECT_FALSE(startsInShadow(d));
     EXPECT_EQ(uncancelled(draw(paper(false), d)), 0);
     const ShaftSetup setup = paper(true);

@@ -5,6 +5,7 @@
 
 #include "atmosphere/model/physics_cpp.h"
 #include "atmosphere/shafts/shaft_frame.h"
+#include "atmosphere/sky/world.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -82,25 +83,26 @@ double lengthOf(const Intervals& intervals) {
   return sum;
 }
 
-SkyDraw ShadowCheckTest::stage(const ShadowScene& scene) {
+FrameState ShadowCheckTest::stage(const ShadowScene& scene) {
   clearCasters();
   for (const reference::test::Mesh& mesh : scene.casters) addCaster(mesh);
   return drawFrom(scene.camera, scene.heading, scene.pitch, scene.fov, kExtent, scene.sunElevation,
                   scene.sunAzimuth);
 }
 
-bool ShadowCheckTest::startsInShadow(const SkyDraw& draw) {
+bool ShadowCheckTest::startsInShadow(const FrameState& draw) {
   return rays().blocked(vector(vec(draw.camera.position_m)), vector(vec(draw.sun.direction)), 0.0,
                         reference::kEndless);
 }
 
-double ShadowCheckTest::texel(const ShaftSetup& setup, const SkyDraw& draw) const {
+double ShadowCheckTest::texel(const ShaftSetup& setup, const FrameState& draw) const {
   const shafts::SunMapPlace place =
-      shafts::placeSunMap(bounds(), draw.sun.direction, setup.sunMapSize);
-  return 2.0 * std::max(place.halfU, place.halfV) / setup.sunMapSize;
+      shafts::placeSunMap(sky::planetBox(sky::Placement(World{}), bounds()), draw.sun.direction,
+                          setup.shadowMapSize);
+  return 2.0 * std::max(place.halfU, place.halfV) / setup.shadowMapSize;
 }
 
-ShadowBand ShadowCheckTest::band(const ShaftSetup& setup, const SkyDraw& draw, uint32_t x,
+ShadowBand ShadowCheckTest::band(const ShaftSetup& setup, const FrameState& draw, uint32_t x,
                                  uint32_t y, double slack) {
   const auto rayAt = [&](double px, double py) { return pixelRay(setup, draw, px, py); };
   const auto [o, v] = rayAt(x, y);
@@ -161,7 +163,7 @@ std::optional<bool> ShadowCheckTest::surfaceInShadow(const ShadowBand& band, dou
   return touching;
 }
 
-std::vector<double> ShadowCheckTest::losses(ShaftSetup setup, const SkyDraw& d, ShaftPicture* with,
+std::vector<double> ShadowCheckTest::losses(ShaftSetup setup, const FrameState& d, ShaftPicture* with,
                                             ShaftPicture* without) {
   setup.shafts = true;
   *with = draw(setup, d);

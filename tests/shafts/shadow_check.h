@@ -40,18 +40,18 @@ class ShadowCheckTest : public ShaftTest {
  protected:
   static constexpr VkExtent2D kExtent = {48, 32};
 
-  SkyDraw stage(const ShadowScene& scene);
-  bool startsInShadow(const SkyDraw& draw);
+  FrameState stage(const ShadowScene& scene);
+  bool startsInShadow(const FrameState& draw);
   /// Metres of a texel of the map from the sun, the greater side.
-  double texel(const ShaftSetup& setup, const SkyDraw& draw) const;
+  double texel(const ShaftSetup& setup, const FrameState& draw) const;
   /// Shadows displaced by up to `slack` metres about a pixel's ray.
-  ShadowBand band(const ShaftSetup& setup, const SkyDraw& draw, uint32_t x, uint32_t y,
+  ShadowBand band(const ShaftSetup& setup, const FrameState& draw, uint32_t x, uint32_t y,
                   double slack);
   /// Whether the surface at the end of a ray is in another's shadow: nothing where it faces away
   /// from the sun, or within `slack` metres of the shadow's edge.
   std::optional<bool> surfaceInShadow(const ShadowBand& band, double slack);
   /// Light that shadows keep from each pixel, channel 1.
-  std::vector<double> losses(ShaftSetup setup, const SkyDraw& draw, ShaftPicture* with,
+  std::vector<double> losses(ShaftSetup setup, const FrameState& draw, ShaftPicture* with,
                              ShaftPicture* without);
 };
 

@@ -11,9 +11,9 @@ namespace {
 
 using reference::Vector;
 
-constexpr ShaftMethod kMethods[] = {ShaftMethod::Exact, ShaftMethod::Paper, ShaftMethod::March};
-const char* nameOf(ShaftMethod method) {
-  return method == ShaftMethod::Exact ? "exact" : method == ShaftMethod::Paper ? "paper" : "march";
+constexpr LightShaftMethod kMethods[] = {LightShaftMethod::LightVolume, LightShaftMethod::ShadowVolume, LightShaftMethod::RayMarch};
+const char* nameOf(LightShaftMethod method) {
+  return method == LightShaftMethod::LightVolume ? "exact" : method == LightShaftMethod::ShadowVolume ? "paper" : "march";
 }
 
 class ShaftConventionsTest : public ShadowCheckTest {
@@ -32,7 +32,7 @@ class ShaftConventionsTest : public ShadowCheckTest {
   }
   /// Greatest difference of two pictures, relative to the light there, but for pixels whose rays
   /// pass an edge.
-  double difference(const ShaftSetup& setup, const SkyDraw& d, const ShaftPicture& a,
+  double difference(const ShaftSetup& setup, const FrameState& d, const ShaftPicture& a,
                     const ShaftPicture& b) {
     double worst = 0.0;
     for (uint32_t y = 0; y < kExtent.height; ++y) {
@@ -46,7 +46,7 @@ class ShaftConventionsTest : public ShadowCheckTest {
     return worst;
   }
   /// Light that a picture lacks beside one without shafts, in all.
-  double shade(ShaftSetup setup, const SkyDraw& d, const ShaftPicture& picture) {
+  double shade(ShaftSetup setup, const FrameState& d, const ShaftPicture& picture) {
     setup.shafts = false;
     const ShaftPicture without = draw(setup, d);
     double sum = 0.0;
@@ -57,9 +57,9 @@ class ShaftConventionsTest : public ShadowCheckTest {
 };
 
 TEST_F(ShaftConventionsTest, PerspectiveDepthChangesNothing) {
-  SkyDraw d = stage(scene());
+  FrameState d = stage(scene());
   d.depth.near_m = 10.0;
-  for (const ShaftMethod method : kMethods) {
+  for (const LightShaftMethod method : kMethods) {
     SCOPED_TRACE(nameOf(method));
     ShaftSetup setup;
     setup.method = method;
@@ -70,7 +70,7 @@ TEST_F(ShaftConventionsTest, PerspectiveDepthChangesNothing) {
       // Beyond everything, and so near that shadows in the sky lie behind it.
       for (const double far_ : {0.0, 1e5, 3600.0}) {
         setup.depth = depth;
-        SkyDraw other = d;
+        FrameState other = d;
         other.depth.far_m = far_;
         const ShaftPicture picture = draw(setup, other);
         const double error = difference(setup, d, base, picture);
@@ -84,10 +84,10 @@ TEST_F(ShaftConventionsTest, PerspectiveDepthChangesNothing) {
 }
 
 TEST_F(ShaftConventionsTest, OrthographicDepthChangesNothing) {
-  SkyDraw d = stage(scene());
+  FrameState d = stage(scene());
   d.camera.height_m = 2000.0;
   d.depth = {10.0, 1e5};
-  for (const ShaftMethod method : kMethods) {
+  for (const LightShaftMethod method : kMethods) {
     SCOPED_TRACE(nameOf(method));
     ShaftSetup setup;
     setup.method = method;
@@ -99,7 +99,7 @@ TEST_F(ShaftConventionsTest, OrthographicDepthChangesNothing) {
     for (const DepthConvention depth : {DepthConvention::Standard, DepthConvention::Reversed}) {
       for (const DepthRange range : {DepthRange{10.0, 1e5}, DepthRange{10.0, 3800.0}}) {
         setup.depth = depth;
-        SkyDraw other = d;
+        FrameState other = d;
         other.depth = range;
         const double error = difference(setup, d, base, draw(setup, other));
         EXPECT_LT(error, 1e-3) << "depth " << static_cast<int>(depth) << " far " << range.far_m;
@@ -112,7 +112,7 @@ TEST_F(ShaftConventionsTest, OrthographicDepthChangesNothing) {
 }
 
 TEST_F(ShaftConventionsTest, DepthWithStencilIsReadToo) {
-  SkyDraw d = stage(scene());
+  FrameState d = stage(scene());
   d.depth.near_m = 10.0;
   int formats = 0;
   for (const VkFormat format : {VK_FORMAT_D24_UNORM_S8_UINT, VK_FORMAT_D32_SFLOAT_S8_UINT}) {
@@ -122,8 +122,8 @@ TEST_F(ShaftConventionsTest, DepthWithStencilIsReadToo) {
         context()->device->formatProperties(format).optimalTilingFeatures;
     if ((features & kNeeded) != kNeeded) continue;
     ++formats;
-    for (const ShaftMethod method : kMethods) {
-      if (formats > 1 && method != ShaftMethod::Exact) continue;  // each compiles for seconds
+    for (const LightShaftMethod method : kMethods) {
+      if (formats > 1 && method != LightShaftMethod::LightVolume) continue;  // each compiles for seconds
       ShaftSetup setup;
       setup.method = method;
       // Fixed point resolves what is near: let that be where depth is.
@@ -140,7 +140,7 @@ TEST_F(ShaftConventionsTest, DepthWithStencilIsReadToo) {
 // Exact against the reference with parallel rays, half of which begin in shadow.
 TEST_F(ShaftConventionsTest, OrthographicLengthsAreThoseOfTheReference) {
   useThinAir();
-  SkyDraw d = stage({"box above",
+  FrameState d = stage({"box above",
                      {reference::test::box(Vector(900, -400, -400), Vector(1000, 1200, 300))},
                      {500, 0, 0},
                      90,

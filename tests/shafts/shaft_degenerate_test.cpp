@@ -14,12 +14,12 @@ class ShaftDegenerateTest : public ShadowCheckTest {
  protected:
   /// All methods: finite, not negative, and no brighter than without shafts; and exact's pixels lie
   /// in none or one shadow.
-  void expectSane(const SkyDraw& d, bool closed = true) {
-    for (const ShaftMethod method : {ShaftMethod::Exact, ShaftMethod::Paper, ShaftMethod::March}) {
+  void expectSane(const FrameState& d, bool closed = true) {
+    for (const LightShaftMethod method : {LightShaftMethod::LightVolume, LightShaftMethod::ShadowVolume, LightShaftMethod::RayMarch}) {
       SCOPED_TRACE(static_cast<int>(method));
       ShaftSetup setup;
       setup.method = method;
-      setup.sunMapSize = 256;
+      setup.shadowMapSize = 256;
       ShaftPicture with, without;
       losses(setup, d, &with, &without);
       EXPECT_EQ(badValue(with.light), "");
@@ -27,8 +27,8 @@ class ShaftDegenerateTest : public ShadowCheckTest {
       for (size_t i = 0; i < with.light.data.size(); ++i)
         brighter += with.light.data[i] > without.light.data[i] * 1.00001f + 1e-7f ? 1 : 0;
       EXPECT_EQ(brighter, 0);
-      if (method == ShaftMethod::Exact) expectCounts(with);
-      if (method == ShaftMethod::Paper && closed) {
+      if (method == LightShaftMethod::LightVolume) expectCounts(with);
+      if (method == LightShaftMethod::ShadowVolume && closed) {
         setup.hostDepth = false;
         const ShaftPicture open = draw(setup, d);
         int uncancelled = 0;
@@ -65,7 +65,7 @@ TEST_F(ShaftDegenerateTest, FacesAlongTheBeam) {
 }
 
 TEST_F(ShaftDegenerateTest, CornersOnTheNearPlane) {
-  SkyDraw d = stage(over({box(Vector(45, 10, -6), Vector(48, 20, -1)), kBlock}, 30, 200));
+  FrameState d = stage(over({box(Vector(45, 10, -6), Vector(48, 20, -1)), kBlock}, 30, 200));
   d = drawFrom({50, 0, 0}, 90.0, 0.0, 60.0, kExtent, 30.0, 200.0);
   d.depth.near_m = 10.0;
   expectSane(d);
@@ -82,9 +82,9 @@ TEST_F(ShaftDegenerateTest, TrianglesWithoutArea) {
 
 TEST_F(ShaftDegenerateTest, CastersSmallerThanATexel) {
   const Mesh grain = box(Vector(80, 100, 0), Vector(80.2, 100.2, 0.2));
-  const SkyDraw d = stage(over({kBlock, grain}, 35, 200));
+  const FrameState d = stage(over({kBlock, grain}, 35, 200));
   ShaftSetup setup;
-  setup.sunMapSize = 256;
+  setup.shadowMapSize = 256;
   EXPECT_GT(texel(setup, d), 1.0);
   expectSane(d);
 }
@@ -99,9 +99,9 @@ TEST_F(ShaftDegenerateTest, ASheetHasNoThickness) {
   for (const double elevation : {90.0, 40.0, 0.0})
     expectSane(stage(over({sheet}, elevation, 180)), false);
   // It does cast a shadow.
-  const SkyDraw d = stage(over({sheet}, 40, 180));
+  const FrameState d = stage(over({sheet}, 40, 180));
   ShaftSetup setup;
-  setup.sunMapSize = 256;
+  setup.shadowMapSize = 256;
   ShaftPicture with, without;
   double sum = 0.0;
   for (const double loss : losses(setup, d, &with, &without)) sum += loss;
@@ -109,12 +109,12 @@ TEST_F(ShaftDegenerateTest, ASheetHasNoThickness) {
 }
 
 TEST_F(ShaftDegenerateTest, NothingCastsNoShadow) {
-  const SkyDraw d = stage(over({kBlock}, 35, 200));
+  const FrameState d = stage(over({kBlock}, 35, 200));
   drawNothing = true;
-  for (const ShaftMethod method : {ShaftMethod::Exact, ShaftMethod::Paper, ShaftMethod::March}) {
+  for (const LightShaftMethod method : {LightShaftMethod::LightVolume, LightShaftMethod::ShadowVolume, LightShaftMethod::RayMarch}) {
     ShaftSetup setup;
     setup.method = method;
-    setup.sunMapSize = 256;
+    setup.shadowMapSize = 256;
     setup.hostDepth = false;
     ShaftPicture with, without;
     for (const double loss : losses(setup, d, &with, &without)) EXPECT_EQ(loss, 0.0);

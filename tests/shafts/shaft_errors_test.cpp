@@ -28,11 +28,11 @@ class ShaftErrorsTest : public ShaftTest {
     ShaftsDesc desc;
     desc.sceneDepth = rig.scene;
     desc.adjacency = true;
-    desc.sunMapSize = 64;
+    desc.shadowMapSize = 64;
     return desc;
   }
   ShaftSetup setup_;
-  SkyDraw draw_;
+  FrameState draw_;
 };
 
 TEST_F(ShaftErrorsTest, BadDescriptionsAreRefusedWithTheValue) {
@@ -43,14 +43,14 @@ TEST_F(ShaftErrorsTest, BadDescriptionsAreRefusedWithTheValue) {
   };
   constexpr Status kBad = Status::InvalidArgument, kNot = Status::Unsupported;
   const Case cases[] = {
-      {"method 7", kBad, [](ShaftsDesc& d) { d.method = static_cast<ShaftMethod>(7); }},
+      {"method 7", kBad, [](ShaftsDesc& d) { d.method = static_cast<LightShaftMethod>(7); }},
       {"depth 9", kBad, [](ShaftsDesc& d) { d.depth = static_cast<DepthConvention>(9); }},
       {"projection 8", kBad, [](ShaftsDesc& d) { d.projection = static_cast<Projection>(8); }},
       {"Fisheye", kNot, [](ShaftsDesc& d) { d.projection = Projection::Fisheye; }},
-      {"sunMapSize is 15", kBad, [](ShaftsDesc& d) { d.sunMapSize = 15; }},
-      {"sunMapSize is 4000000000", kBad, [](ShaftsDesc& d) { d.sunMapSize = 4000000000u; }},
-      {"reliefSize is 1,|64", kBad, [](ShaftsDesc& d) { d.reliefSize = 1; }},
-      {"reliefSize is 65,|64", kBad, [](ShaftsDesc& d) { d.reliefSize = 65; }},
+      {"shadowMapSize is 15", kBad, [](ShaftsDesc& d) { d.shadowMapSize = 15; }},
+      {"shadowMapSize is 4000000000", kBad, [](ShaftsDesc& d) { d.shadowMapSize = 4000000000u; }},
+      {"meshSize is 1,|64", kBad, [](ShaftsDesc& d) { d.meshSize = 1; }},
+      {"meshSize is 65,|64", kBad, [](ShaftsDesc& d) { d.meshSize = 65; }},
       {"multipleLoss is 1.5", kBad, [](ShaftsDesc& d) { d.multipleLoss = 1.5; }},
       {"multipleLoss is nan", kBad, [](ShaftsDesc& d) { d.multipleLoss = std::nan(""); }},
       {"samples is 4097", kBad, [](ShaftsDesc& d) { d.samples = 4097; }},
@@ -65,7 +65,7 @@ TEST_F(ShaftErrorsTest, BadDescriptionsAreRefusedWithTheValue) {
        [](ShaftsDesc& d) { d.sceneDepth.format = VK_FORMAT_R8G8B8A8_UNORM; }},
       {"adjacency is false", kBad,
        [](ShaftsDesc& d) {
-         d.method = ShaftMethod::Paper;
+         d.method = LightShaftMethod::ShadowVolume;
          d.adjacency = false;
        }},
   };
@@ -160,7 +160,7 @@ TEST_F(ShaftErrorsTest, BadCallsRecordNothing) {
   resourceReport(context(), &start);
   run([&](VkCommandBuffer c) {
     const double* sun = draw_.sun.direction;
-    const auto shaftsWith = [&](const SkyDraw& d, const Casters& casters) {
+    const auto shaftsWith = [&](const FrameState& d, const Casters& casters) {
       return recordShafts(rig.shafts, rig.view, c, baked, d, casters);
     };
     Casters bad = casters();
@@ -175,14 +175,14 @@ TEST_F(ShaftErrorsTest, BadCallsRecordNothing) {
     expectRefused(shaftsWith(draw_, bad), kBad, "Casters::bounds|(0, 0, 0)");
     const double nowhere[3] = {0.0, 0.5, 0.0};
     expectRefused(recordSunMap(rig.shafts, c, nowhere, casters()), kBad, "sunDirection|0.5");
-    SkyDraw d = drawFrom({50, 0, 0}, 90, 15, 60, kExtent, 36, 200);
+    FrameState d = drawFrom({50, 0, 0}, 90, 15, 60, kExtent, 36, 200);
     expectRefused(shaftsWith(d, casters()), kBad, "recordSunMap was called last for");
     d = draw_;
     d.viewport.offset = {4, 0};
-    expectRefused(shaftsWith(d, casters()), kBad, "SkyDraw::viewport|(28, 16)|24 x 16");
+    expectRefused(shaftsWith(d, casters()), kBad, "Camera::viewport|(28, 16)|24 x 16");
     d = draw_;
     d.depth.near_m = 0.0;
-    expectRefused(shaftsWith(d, casters()), kBad, "SkyDraw::depth|0");
+    expectRefused(shaftsWith(d, casters()), kBad, "Camera::nearPlane|0");
     d = draw_;
     d.camera.fov = 0.0;
     expectRefused(shaftsWith(d, casters()), kBad, "Camera::fov");
@@ -231,7 +231,7 @@ TEST_F(ShaftErrorsTest, OnlyThePaperNeedsGeometryShaders) {
   Shafts* made = nullptr;
   EXPECT_EQ(createShafts(without, shafts, &made), Status::Ok) << lastDiagnostic();
   destroyShafts(made);
-  shafts.method = ShaftMethod::Paper;
+  shafts.method = LightShaftMethod::ShadowVolume;
   EXPECT_EQ(createShafts(without, shafts, &made), Status::Unsupported);
   EXPECT_TRUE(hasAll(lastDiagnostic(), "Paper|kCapabilityShadowVolumes")) << lastDiagnostic();
   destroyContext(without);
@@ -268,7 +268,7 @@ struct Added {
 
 TEST_F(ShaftErrorsTest, NothingIsMadeOfAMethodThatIsNotChosen) {
   const ShaftRig& rig = rigOf(setup_, kExtent);
-  const auto addedBy = [&](ShaftMethod method) {
+  const auto addedBy = [&](LightShaftMethod method) {
     ShaftsDesc desc = goodDesc(rig);
     desc.method = method;
     ResourceReport start, end;
@@ -281,17 +281,17 @@ TEST_F(ShaftErrorsTest, NothingIsMadeOfAMethodThatIsNotChosen) {
                  end.buffers - start.buffers};
   };
   // Exact: the map, blocks, the surface with and without an air volume; sums.
-  const Added exact = addedBy(ShaftMethod::Exact);
+  const Added exact = addedBy(LightShaftMethod::LightVolume);
   EXPECT_EQ(exact.pipelines, 4u);
   EXPECT_EQ(exact.images, 2u);
   EXPECT_EQ(exact.buffers, 2u);
   // Paper: volumes; sums and bounds, no map.
-  const Added paper = addedBy(ShaftMethod::Paper);
+  const Added paper = addedBy(LightShaftMethod::ShadowVolume);
   EXPECT_EQ(paper.pipelines, 1u);
   EXPECT_EQ(paper.images, 2u);
   EXPECT_EQ(paper.buffers, 1u);
   // March: the map alone, no geometry shader.
-  const Added march = addedBy(ShaftMethod::March);
+  const Added march = addedBy(LightShaftMethod::RayMarch);
   EXPECT_EQ(march.pipelines, 1u);
   EXPECT_EQ(march.images, 1u);
   EXPECT_EQ(march.buffers, 1u);

@@ -141,8 +141,8 @@ void ShaftTest::addCaster(const reference::test::Mesh& mesh) {
   const Vec origin = groundOrigin(parameters);
   bounds_ = Box{};
   for (size_t i = 0; i < 3; ++i) {
-    bounds_.center_m[i] = origin[i] + 0.5 * (low[i] + high[i]);
-    bounds_.halfAxes_m[i][i] = 0.5 * (high[i] - low[i]);
+    bounds_.center[i] = origin[i] + 0.5 * (low[i] + high[i]);
+    bounds_.halfExtents[i] = 0.5 * (high[i] - low[i]);
   }
 }
 
@@ -155,22 +155,22 @@ const reference::MeshRays& ShaftTest::rays() {
   return *rays_;
 }
 
-SkyDraw ShaftTest::drawFrom(const Vec& local, double heading, double pitch, double fov,
+FrameState ShaftTest::drawFrom(const Vec& local, double heading, double pitch, double fov,
                             VkExtent2D extent, double sunElevation, double sunAzimuth) {
-  Camera camera = cameraFromGeodetic(parameters, 0.0, 0.0, 0.0, radians(heading), radians(pitch),
+  EyeCamera camera = cameraFromGeodetic(parameters, 0.0, 0.0, 0.0, radians(heading), radians(pitch),
                                      0.0, radians(fov));
   const Vec origin = groundOrigin(parameters);
   for (size_t i = 0; i < 3; ++i) camera.position_m[i] = origin[i] + local[i];
   Vec sun;
   sunDirection(0.0, 0.0, radians(sunElevation), radians(sunAzimuth), sun.data());
-  SkyDraw draw = makeDraw(camera, sun, extent);
+  FrameState draw = makeDraw(camera, sun, extent);
   draw.depth.near_m = 0.1;
   return draw;
 }
 
-std::pair<Vec, Vec> ShaftTest::pixelRay(const ShaftSetup& setup, const SkyDraw& draw, double x,
+std::pair<Vec, Vec> ShaftTest::pixelRay(const ShaftSetup& setup, const FrameState& draw, double x,
                                         double y) {
-  const Camera& c = draw.camera;
+  const EyeCamera& c = draw.camera;
   if (setup.projection == Projection::Perspective)
     return {vec(c.position_m), *pixelDirection(draw, setup.projection, x, y)};
   const double width = draw.viewport.extent.width, height = draw.viewport.extent.height;
@@ -184,16 +184,24 @@ std::pair<Vec, Vec> ShaftTest::pixelRay(const ShaftSetup& setup, const SkyDraw& 
   return {origin, vec(c.forward)};
 }
 
-Casters ShaftTest::casters() {
+Casters ShaftTest::casters(uint64_t version) {
   Casters casters;
+  casters.version = version;
   casters.bounds = bounds_;
   casters.user = this;
-  casters.draw = [](void* user, VkCommandBuffer commands, const CasterPass* pass) {
+  casters.draw = [](void* user, VkCommandBuffer commands, const CasterPass& pass) {
     auto* test = static_cast<ShaftTest*>(user);
-    placeCaster(pass, groundOrigin(test->parameters).data(), nullptr);
+    placeCaster(pass, commands, groundOrigin(test->parameters).data(), nullptr);
     if (!test->drawNothing) test->drawAll(commands);
   };
   return casters;
+}
+
+FrameDesc ShaftTest::frameOf(const ShaftRig& target, const FrameState& draw) {
+  FrameDesc desc = frameDesc(draw, baked);
+  desc.sceneDepth = target.scene;
+  desc.casters = casters();
+  return desc;
 }
 
 void ShaftTest::drawAll(VkCommandBuffer commands) {
@@ -207,7 +215,7 @@ void ShaftTest::drawAll(VkCommandBuffer commands) {
 }
 
 Status ShaftTest::recordDepth(VkCommandBuffer commands, const ShaftSetup& setup,
-                              const SkyDraw& draw, ShaftRig& target) {
+                              const FrameState& draw, ShaftRig& target) {
   engine::Device& inner = *context()->device;
   const Dispatch& vk = inner.vk();
   const VkExtent2D size = draw.viewport.extent;
@@ -229,7 +237,9 @@ Status ShaftTest::recordDepth(VkCommandBuffer commands, const ShaftSetup& setup,
     vk.CmdSetScissor(commands, 0, 1, &draw.viewport);
     vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, target.pipeline);
     HostConstants constants = {};
-    clipFromCamera(setup.projection, setup.depth, draw, constants.clipFromCamera);
+    EXPECT_EQ(clipFromCamera(setup.projection, setup.depth, frameDesc(draw).cameras[0],
+                             constants.clipFromCamera),
+              Status::Ok);
     const Vec origin = groundOrigin(parameters);
     for (size_t i = 0; i < 3; ++i)
       constants.fromCamera[i] = static_cast<float>(origin[i] - draw.camera.position_m[i]);
@@ -243,7 +253,7 @@ Status ShaftTest::recordDepth(VkCommandBuffer commands, const ShaftSetup& setup,
 }
 
 Status ShaftTest::recordLight(VkCommandBuffer commands, const ShaftSetup& setup,
-                              const SkyDraw& draw, View* view, ShaftRig& target) {
+                              const FrameState& draw, View* view, ShaftRig& target) {
   engine::Device& inner = *context()->device;
   Barriers barriers;
   barriers.discard(target.color, kColorDrawn);
@@ -260,22 +270,21 @@ Status ShaftTest::recordLight(VkCommandBuffer commands, const ShaftSetup& setup,
   rendering.pDepthAttachment = &depth;
   if (hasStencil(setup.depthFormat)) rendering.pStencilAttachment = &depth;
   inner.vk().CmdBeginRendering(commands, &rendering);
-  Status status = recordAir(view, commands, baked, draw);
-  if (status == Status::Ok) status = recordSky(view, commands, baked, draw);
+  Status status = recordAerialPerspective(view, commands);
+  if (status == Status::Ok) status = alpenglow::recordSky(view, commands);
   inner.vk().CmdEndRendering(commands);
   return status;
 }
 
-ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
+ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const FrameState& draw) {
   const VkExtent2D size = draw.viewport.extent;
   ShaftRig& target = rigOf(setup, size);
-  Shafts* shafts = target.shafts;
   View* view = target.view;
   target.used = 0;
 
   ShaftPicture out;
   VkDeviceSize offsets[4] = {};
-  const bool paper = setup.method == ShaftMethod::Paper, exact = setup.method == ShaftMethod::Exact;
+  const bool paper = setup.method == LightShaftMethod::ShadowVolume, exact = setup.method == LightShaftMethod::LightVolume;
   const auto step = [&](double* seconds, const std::function<Status(VkCommandBuffer)>& record) {
     headless::Timing timing;
     std::string error = "Recording failed: " + message();
@@ -287,18 +296,12 @@ ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
   for (uint32_t pass = 0; pass < setup.passes; ++pass) {
     step(&out.seconds.depth,
          [&](VkCommandBuffer c) { return recordDepth(c, setup, draw, target); });
-    if (target.sliced) {
-      step(&out.seconds.slice, [&](VkCommandBuffer c) {
-        return recordSkySlice(view, c, baked, draw);
-      });
-    }
-    if (shafts != nullptr) {
-      step(&out.seconds.sunMap, [&](VkCommandBuffer c) {
-        return recordSunMap(shafts, c, draw.sun.direction, casters());
-      });
-      step(&out.seconds.shafts, [&](VkCommandBuffer c) {
-        return recordShafts(shafts, view, c, baked, draw, casters());
-      });
+    EXPECT_EQ(beginFrame(view, frameOf(target, draw), nullptr), Status::Ok) << message();
+    if (setup.sliced)
+      step(&out.seconds.luts, [&](VkCommandBuffer c) { return alpenglow::recordLuts(view, c); });
+    if (setup.shafts) {
+      step(&out.seconds.shadowMap, [&](VkCommandBuffer c) { return recordShadowMap(view, c); });
+      step(&out.seconds.shafts, [&](VkCommandBuffer c) { return recordLightShafts(view, c); });
     }
     step(&out.seconds.air,
          [&](VkCommandBuffer c) { return recordLight(c, setup, draw, view, target); });
@@ -307,11 +310,14 @@ ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
   step(&unused, [&](VkCommandBuffer commands) {
     offsets[0] = target.copyBack(commands, target.color, VK_IMAGE_ASPECT_COLOR_BIT, 16);
     offsets[1] = target.copyBack(commands, target.depth, VK_IMAGE_ASPECT_DEPTH_BIT, 4);
-    if (shafts != nullptr && exact)
-      offsets[2] = target.copyBack(commands, shafts->target(0), VK_IMAGE_ASPECT_COLOR_BIT, 16);
-    if (shafts != nullptr && paper) {
-      offsets[2] = target.copyBack(commands, shafts->target(0), VK_IMAGE_ASPECT_COLOR_BIT, 8);
-      offsets[3] = target.copyBack(commands, shafts->target(1), VK_IMAGE_ASPECT_COLOR_BIT, 8);
+    if (setup.shafts && exact)
+      offsets[2] =
+          target.copyBack(commands, view->lightShafts().target(0), VK_IMAGE_ASPECT_COLOR_BIT, 16);
+    if (setup.shafts && paper) {
+      for (uint32_t i = 0; i < 2; ++i) {
+        offsets[2 + i] = target.copyBack(commands, view->lightShafts().target(i),
+                                         VK_IMAGE_ASPECT_COLOR_BIT, 8);
+      }
     }
     return Status::Ok;
   });
@@ -320,8 +326,8 @@ ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const SkyDraw& draw) {
   out.light.height = size.height;
   out.light.data = target.floats(offsets[0], 4 * pixels);
   if (setup.depthFormat == VK_FORMAT_D32_SFLOAT) out.depth = target.floats(offsets[1], pixels);
-  if (shafts != nullptr && exact) out.sums = target.floats(offsets[2], 4 * pixels);
-  if (shafts != nullptr && paper) {
+  if (setup.shafts && exact) out.sums = target.floats(offsets[2], 4 * pixels);
+  if (setup.shafts && paper) {
     out.sums = target.floats(offsets[2], 2 * pixels);
     out.bounds = target.floats(offsets[3], 2 * pixels);
   }

@@ -2,8 +2,6 @@
 // sky; and the same rays for the reference in double.
 #pragma once
 
-#include <alpenglow/shafts.h>
-
 #include "atmosphere/reference/scene_light.h"
 #include "engine/memory.h"
 #include "engine/pipeline.h"
@@ -18,7 +16,7 @@ Vec groundOrigin(const Parameters& parameters);
 
 /// User CPU of each step.
 struct ShaftSeconds {
-  double depth = 0.0, slice = 0.0, sunMap = 0.0, shafts = 0.0, air = 0.0;
+  double depth = 0.0, luts = 0.0, shadowMap = 0.0, shafts = 0.0, air = 0.0;
 };
 
 struct ShaftPicture {
@@ -41,7 +39,9 @@ class ShaftTest : public SkyTest {
   /// All casters, in the planet's frame.
   const reference::MeshRays& rays();
   const Box& bounds() const { return bounds_; }
-  Casters casters();
+  Casters casters(uint64_t version = 0);
+  /// Of `target`'s depth image, with casters().
+  FrameDesc frameOf(const ShaftRig& target, const FrameState& draw);
   bool drawNothing = false;  ///< The callback of casters() leaves them out.
   /// Over a black ground, so that what shadows take away is the air's. SetUp does it.
   void useEarth();
@@ -51,13 +51,19 @@ class ShaftTest : public SkyTest {
   Tables* baked = nullptr;
 
   /// At local (up, east, north), looking at angles like a scene's camera.
-  SkyDraw drawFrom(const Vec& local, double heading, double pitch, double fov, VkExtent2D extent,
+  FrameState drawFrom(const Vec& local, double heading, double pitch, double fov, VkExtent2D extent,
                    double sunElevation, double sunAzimuth);
   /// With objects that are made at the first use of such a setup and serve all further ones.
-  ShaftPicture draw(const ShaftSetup& setup, const SkyDraw& draw);
+  ShaftPicture draw(const ShaftSetup& setup, const FrameState& draw);
   ShaftRig& rigOf(const ShaftSetup& setup, VkExtent2D size);
+  /// The host's depth, which its view reads from then on.
+  Status recordDepth(VkCommandBuffer commands, const ShaftSetup& setup, const FrameState& draw,
+                     ShaftRig& target);
+  /// Aerial perspective and sky of the frame that `view` has begun, into the target's colour.
+  Status recordLight(VkCommandBuffer commands, const ShaftSetup& setup, const FrameState& draw,
+                     View* view, ShaftRig& target);
   /// Ray through the middle of a pixel, in the planet's frame: origin and direction.
-  std::pair<Vec, Vec> pixelRay(const ShaftSetup& setup, const SkyDraw& draw, double x, double y);
+  std::pair<Vec, Vec> pixelRay(const ShaftSetup& setup, const FrameState& draw, double x, double y);
 
  private:
   struct CasterBuffers {
@@ -67,10 +73,6 @@ class ShaftTest : public SkyTest {
   };
   static std::vector<std::unique_ptr<ShaftRig>>& rigs();
   void drawAll(VkCommandBuffer commands);
-  Status recordDepth(VkCommandBuffer commands, const ShaftSetup& setup, const SkyDraw& draw,
-                     ShaftRig& target);
-  Status recordLight(VkCommandBuffer commands, const ShaftSetup& setup, const SkyDraw& draw,
-                     View* view, ShaftRig& target);
 
   std::vector<reference::test::Mesh> meshes_;
   std::vector<CasterBuffers> buffers_;

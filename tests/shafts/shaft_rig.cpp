@@ -13,17 +13,16 @@ namespace alpenglow::testing {
 using namespace engine;
 
 ShaftRig::ShaftRig(Context* context, headless::Device& host, const ShaftSetup& s, VkExtent2D size,
-                   const Tables* slice)
+                   const Tables* tables)
     : device(*context->device), setup(s) {
-  scene.format = setup.depthFormat;
+  scene.layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
   scene.extent = size;
   makeHost(host);
-  makeView(context, slice);
+  makeView(context, tables);
 }
 
 ShaftRig::~ShaftRig() {
   destroyView(view);
-  destroyShafts(shafts);
   device.vk().DestroyImageView(device.handle(), scene.view, nullptr);
   device.destroyObject(VK_OBJECT_TYPE_PIPELINE, pipeline);
   device.destroyObject(VK_OBJECT_TYPE_PIPELINE_LAYOUT, layout);
@@ -38,9 +37,9 @@ bool ShaftRig::serves(const ShaftSetup& s, VkExtent2D size) const {
                            s.sliced == setup.sliced && s.depthFormat == setup.depthFormat &&
                            s.shafts == setup.shafts && s.without == setup.without;
   return samePicture &&
-         (!s.shafts || (s.method == setup.method && s.sunMapSize == setup.sunMapSize &&
-                        s.reliefSize == setup.reliefSize && s.samples == setup.samples &&
-                        s.multipleLoss == setup.multipleLoss));
+         (!s.shafts || (s.method == setup.method && s.shadowMapSize == setup.shadowMapSize &&
+                        s.meshSize == setup.meshSize && s.stepCount == setup.stepCount &&
+                        s.multipleLoss == setup.multipleLoss && s.closed == setup.closed));
 }
 
 void ShaftRig::makeHost(headless::Device& host) {
@@ -85,33 +84,30 @@ void ShaftRig::makeHost(headless::Device& host) {
   EXPECT_EQ(device.vk().CreateImageView(device.handle(), &info, nullptr, &scene.view), VK_SUCCESS);
 }
 
-void ShaftRig::makeView(Context* context, const Tables* slice) {
-  ShaftsDesc desc;
-  desc.method = setup.method;
-  desc.sceneDepth = scene;
+ViewDesc viewDescOf(const ShaftSetup& setup) {
+  ViewDesc desc;
+  desc.colorFormat = kShaftColor;
+  desc.depthFormat = setup.depthFormat;
   desc.depth = setup.depth;
   desc.projection = setup.projection;
-  desc.sunMapSize = setup.sunMapSize;
-  desc.samples = setup.samples;
-  desc.adjacency = true;
-  desc.closed = setup.closed;
-  desc.reliefSize = setup.reliefSize;
-  desc.multipleLoss = setup.multipleLoss;
-  desc.without = setup.without;
-  if (setup.shafts) {
-    EXPECT_EQ(createShafts(context, desc, &shafts), Status::Ok);
-  }
-  ViewDesc viewDesc;
-  viewDesc.colorFormat = kShaftColor;
-  viewDesc.depthFormat = setup.depthFormat;
-  viewDesc.depth = setup.depth;
-  viewDesc.projection = setup.projection;
-  viewDesc.sceneDepth = scene;
-  viewDesc.without = setup.without;
-  viewDesc.shafts = shafts;
-  sliced = setup.sliced && setup.projection != Projection::Orthographic;
-  if (sliced) viewDesc.skySlice = slice;
-  EXPECT_EQ(createView(context, viewDesc, &view), Status::Ok);
+  desc.disabledEffects = setup.without;
+  desc.sky = setup.sliced ? SkyMethod::Lut : SkyMethod::Integrate;
+  desc.aerialPerspective =
+      setup.sliced ? AerialPerspective::On : AerialPerspective::Integrate;
+  if (!setup.shafts) return desc;
+  LightShaftDesc& shafts = desc.lightShafts;
+  shafts.method = setup.method;
+  shafts.shadowMapSize = setup.shadowMapSize;
+  shafts.meshSize = setup.meshSize;
+  shafts.stepCount = setup.stepCount;
+  shafts.multipleLoss = setup.multipleLoss;
+  shafts.closed = setup.closed;
+  shafts.adjacency = true;
+  return desc;
+}
+
+void ShaftRig::makeView(Context* context, const Tables* tables) {
+  EXPECT_EQ(createView(context, tables, viewDescOf(setup), &view), Status::Ok);
 }
 
 VkDeviceSize ShaftRig::copyBack(VkCommandBuffer commands, Image& image, VkImageAspectFlags aspect,

@@ -1,8 +1,7 @@
 // A host's images, and the library's objects for them.
 #pragma once
 
-#include <alpenglow/shafts.h>
-
+#include "atmosphere/view/view.h"
 #include "engine/memory.h"
 #include "engine/pipeline.h"
 #include "tests/sky/sky_fixture.h"
@@ -13,18 +12,18 @@ inline constexpr VkFormat kShaftColor = VK_FORMAT_R32G32B32A32_SFLOAT;
 
 /// What is drawn how.
 struct ShaftSetup {
-  ShaftMethod method = ShaftMethod::Exact;
+  LightShaftMethod method = LightShaftMethod::LightVolume;
   DepthConvention depth = DepthConvention::Reversed;
   Projection projection = Projection::Perspective;
-  bool sliced = true;  ///< Light from an air volume, else integrated.
+  bool sliced = true;  ///< Light from LUTs, else integrated.
   VkFormat depthFormat = VK_FORMAT_D32_SFLOAT;
-  uint32_t sunMapSize = 1024;
-  uint32_t reliefSize = 0;
-  uint32_t samples = 0;
+  uint32_t shadowMapSize = 1024;
+  uint32_t meshSize = 0;
+  uint32_t stepCount = 0;
   double multipleLoss = -1.0;
   bool hostDepth = true;    ///< The casters are drawn into the depth image too.
   bool closed = false;      ///< The casters are.
-  EffectFlags without = 0;  ///< Of view and shafts.
+  EffectFlags without = 0;  ///< Of the view.
   bool shafts = true;       ///< Else aerial perspective alone.
   uint32_t passes = 1;      ///< Drawn so often; the last is timed.
 };
@@ -35,10 +34,13 @@ struct HostConstants {
   float fromCamera[4];
 };
 
+/// Of a view that draws so.
+ViewDesc viewDescOf(const ShaftSetup& setup);
+
 /// All that pictures of one setup need; nothing of a frame.
 struct ShaftRig {
   ShaftRig(Context* context, headless::Device& host, const ShaftSetup& setup, VkExtent2D size,
-           const Tables* slice);
+           const Tables* tables);
   ~ShaftRig();
   ShaftRig(const ShaftRig&) = delete;
   ShaftRig& operator=(const ShaftRig&) = delete;
@@ -57,14 +59,12 @@ struct ShaftRig {
   VkPipeline pipeline = VK_NULL_HANDLE;  ///< Draws the casters' depth.
   headless::HostBuffer readback;
   VkDeviceSize used = 0;
-  SceneDepth scene;
-  Shafts* shafts = nullptr;
+  HostImage scene;  ///< What a frame states of the depth.
   View* view = nullptr;
-  bool sliced = false;
 
  private:
   void makeHost(headless::Device& host);
-  void makeView(Context* context, const Tables* slice);
+  void makeView(Context* context, const Tables* tables);
 };
 
 }  // namespace alpenglow::testing

@@ -51,7 +51,7 @@ class TerrainErrors : public TerrainShaftTest {
     double of[3] = {};
     bool darkGround = false;
   };
-  Loss lossOf(const SkyDraw& d, uint32_t x, uint32_t y) {
+  Loss lossOf(const FrameState& d, uint32_t x, uint32_t y) {
     const auto medium = makeMediumF64(parameters);
     const auto [o, view] = pixelRay(ShaftSetup{}, d, x, y);
     const reference::SceneRay ray{vector(o), vector(view), vector(vec(d.sun.direction))};
@@ -73,7 +73,7 @@ class TerrainErrors : public TerrainShaftTest {
   }
 
   /// Whether the light that is wanted changes by more than 5 % to a neighbour.
-  bool nextToShadowEdge(const SkyDraw& d, const ShaftPicture& off, const Wanted& w) {
+  bool nextToShadowEdge(const FrameState& d, const ShaftPicture& off, const Wanted& w) {
     const int steps[4][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     for (const auto& step : steps) {
       const uint32_t x = w.x + static_cast<uint32_t>(step[0]);
@@ -87,7 +87,7 @@ class TerrainErrors : public TerrainShaftTest {
     return false;
   }
 
-  std::vector<Wanted> reference(const SkyDraw& d, const ShaftPicture& off) {
+  std::vector<Wanted> reference(const FrameState& d, const ShaftPicture& off) {
     std::vector<Wanted> wanted;
     for (uint32_t y = 3; y < kSize.height - 1; y += 11) {
       for (uint32_t x = 2; x < kSize.width - 1; x += 11) {
@@ -100,7 +100,7 @@ class TerrainErrors : public TerrainShaftTest {
     return wanted;
   }
 
-  Errors errorsOf(const SkyDraw& d, const ShaftPicture& p, const ShaftPicture& off,
+  Errors errorsOf(const FrameState& d, const ShaftPicture& p, const ShaftPicture& off,
                   std::vector<Wanted>& wanted) {
     Errors errors;
     for (Wanted& w : wanted) {
@@ -120,7 +120,7 @@ class TerrainErrors : public TerrainShaftTest {
   }
 
   /// All of the light, integrated through the tables: what shadows keep is taken from this.
-  ShaftPicture unshadowed(const SkyDraw& d) {
+  ShaftPicture unshadowed(const FrameState& d) {
     ShaftSetup setup;
     setup.shafts = false;
     setup.sliced = false;
@@ -138,11 +138,11 @@ class TerrainErrors : public TerrainShaftTest {
 #ifndef ALPENGLOW_ALL_METHODS
 TEST_F(TerrainErrors, ExactMeetsItsGoals) {
   for (const TerrainView& v : kTerrainViews) {
-    const SkyDraw d = drawOf(v, kSize);
+    const FrameState d = drawOf(v, kSize);
     const ShaftPicture off = unshadowed(d);
     std::vector<Wanted> wanted = reference(d, off);
     ShaftSetup setup;
-    setup.sunMapSize = 2048;
+    setup.shadowMapSize = 2048;
     setup.closed = true;
     const Errors e = errorsOf(d, draw(setup, d), off, wanted);
     std::printf("%s, %zu rays, per cent\n", v.name, wanted.size());
@@ -154,28 +154,28 @@ TEST_F(TerrainErrors, ExactMeetsItsGoals) {
 #else
 TEST_F(TerrainErrors, OfEachMethod) {
   for (const TerrainView& v : kTerrainViews) {
-    const SkyDraw d = drawOf(v, kSize);
+    const FrameState d = drawOf(v, kSize);
     const ShaftPicture off = unshadowed(d);
     std::vector<Wanted> wanted = reference(d, off);
     std::printf("%s, %zu rays, per cent\n", v.name, wanted.size());
     ShaftSetup setup;
-    setup.sunMapSize = 2048;
+    setup.shadowMapSize = 2048;
     setup.closed = true;
     for (const uint32_t relief : {512u, 1024u, 2048u}) {
-      setup.reliefSize = relief;
+      setup.meshSize = relief;
       print("exact", relief, errorsOf(d, draw(setup, d), off, wanted));
     }
-    setup.reliefSize = 0;
-    setup.method = ShaftMethod::March;
+    setup.meshSize = 0;
+    setup.method = LightShaftMethod::RayMarch;
     double most = 1e9;
     for (const uint32_t samples : {16u, 32u, 64u, 128u}) {
-      setup.samples = samples;
+      setup.stepCount = samples;
       const Errors e = errorsOf(d, draw(setup, d), off, wanted);
       print("march", samples, e);
       EXPECT_LT(Errors::at(e.all, 0.95), most) << "more samples are no better";
       most = Errors::at(e.all, 0.95);
     }
-    setup.method = ShaftMethod::Paper;
+    setup.method = LightShaftMethod::ShadowVolume;
     print("paper", 0, errorsOf(d, draw(setup, d), off, wanted));
   }
 }

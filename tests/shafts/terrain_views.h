@@ -30,7 +30,7 @@ class TerrainShaftTest : public ShaftTest {
     destroyTables(baked);
     ShaftTest::TearDown();
   }
-  SkyDraw drawOf(const TerrainView& v, VkExtent2D size) {
+  FrameState drawOf(const TerrainView& v, VkExtent2D size) {
     const double ground = terrainAltitude(rays(), parameters, v.east, v.north);
     return drawFrom({ground + v.above, v.east, v.north}, v.heading, v.pitch, 60.0, size,
                     v.sunElevation, v.sunAzimuth);

@@ -81,8 +81,8 @@ std::vector<ProbeAnswer> probe(headless::Device& device, const Tables* tables,
   return answers;
 }
 
-SkyDraw makeDraw(const Camera& camera, const Vec& sun, VkExtent2D extent) {
-  SkyDraw draw;
+FrameState makeDraw(const EyeCamera& camera, const Vec& sun, VkExtent2D extent) {
+  FrameState draw;
   draw.camera = camera;
   for (size_t i = 0; i < 3; ++i) draw.sun.direction[i] = sun[i];
   draw.sun.irradiance = {{1.0, 1.0, 1.0}};
@@ -90,7 +90,7 @@ SkyDraw makeDraw(const Camera& camera, const Vec& sun, VkExtent2D extent) {
   return draw;
 }
 
-std::optional<Vec> pixelDirection(const SkyDraw& draw, Projection projection, double x, double y) {
+std::optional<Vec> pixelDirection(const FrameState& draw, Projection projection, double x, double y) {
   const double width = draw.viewport.extent.width, height = draw.viewport.extent.height;
   const Vec forward = vec(draw.camera.forward), up = vec(draw.camera.up);
   const Vec right = cross(forward, up);
@@ -110,7 +110,7 @@ std::optional<Vec> pixelDirection(const SkyDraw& draw, Projection projection, do
   return unit(direction);
 }
 
-ProbeQuery rayQuery(const Parameters& parameters, const Camera& camera, const Vec& direction,
+ProbeQuery rayQuery(const Parameters& parameters, const EyeCamera& camera, const Vec& direction,
                     const Vec& sun) {
   const Vec position = vec(camera.position_m);
   const Vec up = unit(position);
@@ -187,7 +187,7 @@ Tables* SkyTest::tables(const char* name, const Parameters& parameters, MieStora
 
 ViewDesc SkyTest::viewDesc() const {
   ViewDesc desc;
-  desc.solver = solver_;
+  desc.sky = SkyMethod::Integrate;
   desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   return desc;
 }
@@ -197,16 +197,16 @@ View* SkyTest::view(Projection projection) {
   if (slot == nullptr) {
     ViewDesc desc = viewDesc();
     desc.projection = projection;
-    EXPECT_EQ(createView(context(), desc, &slot), Status::Ok) << message();
+    EXPECT_EQ(createView(context(), tables(), desc, &slot), Status::Ok) << message();
   }
   return slot;
 }
 
-View* SkyTest::makeView(const ViewDesc& desc) {
+View* SkyTest::makeView(const ViewDesc& desc, Tables* with) {
   ViewDesc full = desc;
   if (full.colorFormat == VK_FORMAT_UNDEFINED) full.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   View* made = nullptr;
-  EXPECT_EQ(createView(context(), full, &made), Status::Ok) << message();
+  EXPECT_EQ(createView(context(), with != nullptr ? with : tables(), full, &made), Status::Ok) << message();
   if (made != nullptr) shared().otherViews.push_back(made);
   return made;
 }
@@ -216,39 +216,49 @@ View* SkyTest::slicedView(Projection projection) {
   if (slot == nullptr) {
     ViewDesc desc = viewDesc();
     desc.projection = projection;
+    desc.sky = SkyMethod::Lut;
     // Only the shape counts: that of the default level, which these drafts don't have.
     Tables* shape = nullptr;
     if (solver_ == Solver::Moments) {
       EXPECT_EQ(createTables(context(), preset("earth"), {}, &shape), Status::Ok) << message();
     }
-    desc.skySlice = shape != nullptr ? shape : tables();
-    EXPECT_EQ(createView(context(), desc, &slot), Status::Ok) << message();
+    EXPECT_EQ(createView(context(), shape != nullptr ? shape : tables(), desc, &slot), Status::Ok)
+        << message();
     destroyTables(shape);
   }
   return slot;
 }
 
-void SkyTest::recordSlice(View* sliced, const Tables* with, const SkyDraw& draw) {
+void SkyTest::recordSlice(View* sliced, const Tables* with, const FrameState& draw) {
   run([&](VkCommandBuffer commands) {
-    return recordSkySlice(sliced, commands, with, draw) == Status::Ok;
+    return testing::recordLuts(sliced, commands, with, draw) == Status::Ok;
   });
 }
 
-Picture SkyTest::picture(const SkyDraw& draw, Projection projection, Tables* with) {
+void SkyTest::expectNeedsSlice(View* sliced, const Tables* with, const FrameState& draw) {
+  run([&](VkCommandBuffer commands) {
+    message().clear();
+    EXPECT_EQ(testing::recordSky(sliced, commands, with, draw), Status::InvalidArgument);
+    EXPECT_TRUE(hasAll(message(), "recordSky|sky-view LUT|recordLuts")) << message();
+    return true;
+  });
+}
+
+Picture SkyTest::picture(const FrameState& draw, Projection projection, Tables* with) {
   return picture(view(projection), with != nullptr ? with : tables(), draw);
 }
 
-Picture SkyTest::picture(View* with, Tables* baked, const SkyDraw& draw) {
+Picture SkyTest::picture(View* with, Tables* baked, const FrameState& draw) {
   TargetDesc target;
   target.extent = draw.viewport.extent;
   return picture(with, baked, draw, target);
 }
 
-Picture SkyTest::picture(View* with, Tables* baked, const SkyDraw& draw,
+Picture SkyTest::picture(View* with, Tables* baked, const FrameState& draw,
                          const TargetDesc& targetDesc) {
   Target target(device(), targetDesc);
   return target.draw([&](VkCommandBuffer commands) {
-    const Status status = recordSky(with, commands, baked, draw);
+    const Status status = testing::recordSky(with, commands, baked, draw);
     EXPECT_EQ(status, Status::Ok) << message();
     return status == Status::Ok;
   });

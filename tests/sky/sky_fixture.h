@@ -15,6 +15,7 @@
 #include "tests/engine/device_fixture.h"
 #include "tests/bake/tables_state.h"
 #include "tests/sky/vulkan_wrap.h"
+#include "tests/support/frames.h"
 
 namespace alpenglow::testing {
 
@@ -71,14 +72,14 @@ std::vector<ProbeAnswer> probe(headless::Device& device, const Tables* tables,
                                const std::vector<ProbeQuery>& queries);
 
 /// A draw of the whole extent: irradiance 1, no disc.
-SkyDraw makeDraw(const Camera& camera, const Vec& sun, VkExtent2D extent);
+FrameState makeDraw(const EyeCamera& camera, const Vec& sun, VkExtent2D extent);
 
 /// The direction that the centre of a pixel looks in, by docs/file-formats.md, in double; x and y
 /// count from the viewport's corner. Nothing outside a fisheye's circle.
-std::optional<Vec> pixelDirection(const SkyDraw& draw, Projection projection, double x, double y);
+std::optional<Vec> pixelDirection(const FrameState& draw, Projection projection, double x, double y);
 
 /// The probe query of a camera's ray.
-ProbeQuery rayQuery(const Parameters& parameters, const Camera& camera, const Vec& direction,
+ProbeQuery rayQuery(const Parameters& parameters, const EyeCamera& camera, const Vec& direction,
                     const Vec& sun);
 
 /// Angle of the planet's horizon below the horizontal, radians.
@@ -103,16 +104,19 @@ class SkyTest : public DeviceTest {
   View* view(Projection projection = Projection::Perspective);
   /// Of 32-bit floats, for the suite's solver.
   ViewDesc viewDesc() const;
-  View* makeView(const ViewDesc& desc);
-  /// Like view(), with a sky slice of the shape of tables(), but of the default level.
+  /// For tables(), unless others are given; of 32-bit floats unless `desc` says otherwise.
+  View* makeView(const ViewDesc& desc, Tables* with = nullptr);
+  /// Like view(), with a sky-view LUT of the shape that tables() have, but of the default level.
   View* slicedView(Projection projection);
-  void recordSlice(View* sliced, const Tables* with, const SkyDraw& draw);
+  void recordSlice(View* sliced, const Tables* with, const FrameState& draw);
+  /// recordSky is refused with a sentence, since the LUT holds something else.
+  void expectNeedsSlice(View* sliced, const Tables* with, const FrameState& draw);
   /// With view(projection), into a 32-bit float target of the viewport's size.
-  Picture picture(const SkyDraw& draw, Projection projection = Projection::Perspective,
+  Picture picture(const FrameState& draw, Projection projection = Projection::Perspective,
                   Tables* with = nullptr);
-  /// The same with another view; from the slice that was recorded last, if it serves.
-  Picture picture(View* with, Tables* tables, const SkyDraw& draw);
-  Picture picture(View* with, Tables* tables, const SkyDraw& draw, const TargetDesc& target);
+  /// The same with another view; one with a LUT needs recordSlice before.
+  Picture picture(View* with, Tables* tables, const FrameState& draw);
+  Picture picture(View* with, Tables* tables, const FrameState& draw, const TargetDesc& target);
   std::vector<ProbeAnswer> probeAll(const std::vector<ProbeQuery>& queries, Tables* with = nullptr);
   /// What `context` said last; emptied by SetUp.
   static std::string& message();
