@@ -26,7 +26,7 @@ struct Added {
 
 class ViewCostsTest : public ShaftTest {
  protected:
-  static ResourceReport reportOf(Context* context) {
+  ResourceReport reportOf(Context* context) {
     finishFrames(context);
     ResourceReport now;
     resourceReport(context, &now);
