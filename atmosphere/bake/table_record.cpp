@@ -189,23 +189,28 @@ Status Tables::noteFrame() {
   }
   for (size_t i = 0; i < images_.size(); ++i) imagesBefore_[i] = images_[i];
   stateBefore_ = state_;
-  recordedFrame_ = device_.submitting();
+  keptFrame_ = device_.submitting();
+  recordedBefore_ = recordedFrame_;
+  recordedFrame_ = keptFrame_;
   return Status::Ok;
 }
 
 void Tables::frameAbandoned(uint64_t frame) {
   if (recordedFrame_ < frame) return;
-  if (recordedFrame_ == frame) {
+  if (keptFrame_ == frame) {
     state_ = stateBefore_;
-    for (size_t i = 0; i < images_.size(); ++i) static_cast<engine::ImageTrack&>(images_[i]) = imagesBefore_[i];
-    --recordedFrame_;
+    for (size_t i = 0; i < images_.size(); ++i)
+      static_cast<engine::ImageTrack&>(images_[i]) = imagesBefore_[i];
+    recordedFrame_ = recordedBefore_;
+    keptFrame_ = 0;
     return;
   }
-  // Later slices stand on what is missing now.
-  const bool finished = scratchReleased_;  // Then frame is a readback's, and the tables are whole.
-  if (finished) return;
+  // Whole before that frame: it can only have held readbacks, which leave the images as they were.
+  if (state_.ready && state_.readyFrame < frame) return;
+  // Later slices stand on what is missing now. Their commands may still execute.
   state_ = {};
-  for (engine::Image& image : images_) static_cast<engine::ImageTrack&>(image) = {};
+  recordedFrame_ = keptFrame_ = 0;
+  for (engine::Image& image : images_) image.state.layout = VK_IMAGE_LAYOUT_UNDEFINED;
 }
 
 void Tables::releaseScratch() {

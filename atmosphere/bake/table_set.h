@@ -133,8 +133,10 @@ struct Tables : public engine::FrameObject {
     uint64_t readyFrame = 0;  ///< In which the last slice or upload was recorded.
   };
   RecordState state_;
-  uint64_t recordedFrame_ = 0;
-  RecordState stateBefore_;                    ///< Before recordedFrame_ ...
+  uint64_t recordedFrame_ = 0;    ///< The newest in which something was recorded, and not abandoned.
+  uint64_t keptFrame_ = 0;        ///< What was before this one is kept; 0: nothing is.
+  uint64_t recordedBefore_ = 0;   ///< recordedFrame_ before keptFrame_ ...
+  RecordState stateBefore_;       ///< ... the state then ...
   std::vector<engine::ImageTrack> imagesBefore_;  ///< ... and the images' states then.
   bool scratchReleased_ = false;
 };

@@ -82,7 +82,7 @@ Status checkShaftSettings(const engine::Device& device, const ShaftSettings& des
       desc.vertexStride > limits.maxVertexInputBindingStride ||
       uint64_t{desc.vertexOffset} + 12 > desc.vertexStride) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "ShaftSettings has vertexStride %u and vertexOffset %u, but both must be "
+                       "LightShaftDesc has vertexStride %u and vertexOffset %u, but both must be "
                        "multiples of 4, and three floats must fit into the stride, at most %u.",
                        desc.vertexStride, desc.vertexOffset, limits.maxVertexInputBindingStride);
   }
@@ -97,7 +97,7 @@ Status checkViewport(const engine::Device& device, const VkExtent2D& whole,
   if (right <= whole.width && bottom <= whole.height) return Status::Ok;
   return device.fail(
       Status::InvalidArgument, VK_SUCCESS,
-      "FrameState::viewport reaches to pixel (%lld, %lld), but the scene's depth has %u "
+      "Camera::viewport reaches to pixel (%lld, %lld), but the scene's depth has %u "
       "x %u pixels.",
       static_cast<long long>(right), static_cast<long long>(bottom), whole.width, whole.height);
 }

@@ -51,14 +51,14 @@ Status checkViewport(const engine::Device& device, const VkRect2D& area) {
   if (area.extent.width == 0 || area.extent.height == 0 || area.extent.width > most[0] ||
       area.extent.height > most[1]) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "FrameState::viewport is %u x %u pixels, but must be from 1 x 1 to %u x %u.",
+                       "Camera::viewport is %u x %u pixels, but must be from 1 x 1 to %u x %u.",
                        area.extent.width, area.extent.height, most[0], most[1]);
   }
   if (area.offset.x < 0 || area.offset.y < 0 ||
       int64_t{area.offset.x} + area.extent.width > INT32_MAX ||
       int64_t{area.offset.y} + area.extent.height > INT32_MAX) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "FrameState::viewport begins at pixel (%d, %d), but must begin inside the "
+                       "Camera::viewport begins at pixel (%d, %d), but must begin inside the "
                        "colour attachment.",
                        area.offset.x, area.offset.y);
   }
@@ -109,9 +109,9 @@ Status checkDraw(const engine::Device& device, Projection projection, const Fram
     return refuse(device, "Light::discRadius", draw.sun.discRadius, "from 0 to below pi / 2 radians");
   for (uint32_t i = 0; i < kSpectrumSize; ++i)
     if (!(draw.sun.irradiance[i] >= 0.0 && draw.sun.irradiance[i] < 1e30))
-      return refuse(device, "Sun::irradiance", draw.sun.irradiance[i], "from 0 to below 1e30");
+      return refuse(device, "LightDesc::irradiance", draw.sun.irradiance[i], "from 0 to below 1e30");
   if (!(draw.radianceScale >= 0.0 && draw.radianceScale < 1e30))
-    return refuse(device, "FrameState::radianceScale", draw.radianceScale, "from 0 to below 1e30");
+    return refuse(device, "FrameDesc::radianceScale", draw.radianceScale, "from 0 to below 1e30");
   return checkViewport(device, draw.viewport);
 }
 
@@ -153,7 +153,7 @@ Status checkDepthRange(const engine::Device& device, Projection projection,
                              : n > 0.0 && n < 1e12 && (f == 0.0 || (f > n && f < 1e15));
   if (good) return Status::Ok;
   return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                     "FrameState::depth runs from %g to %g m, but must run from %s.", n, f,
+                     "Camera::nearPlane is %g and farPlane %g, but the depth must run from %s.", n, f,
                      parallel ? "one distance below 1e12 m to a greater one"
                               : "a distance above 0 to a greater one, or to 0 for infinitely far");
 }

@@ -71,11 +71,13 @@ TEST_F(StandardSkyTest, ABakeContextRefusesViews) {
   desc.capabilities = kCapabilityBake;
   Context* made = nullptr;
   ASSERT_EQ(createContext(desc, &made), Status::Ok);
+  Tables* empty = nullptr;
+  ASSERT_EQ(createTables(made, preset("earth"), smallTables(), &empty), Status::Ok);
   View* view = nullptr;
   ViewDesc viewDesc;
-  viewDesc.solver = Solver::Standard;
+  viewDesc.sky = SkyMethod::Integrate;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-  EXPECT_EQ(createView(made, viewDesc, &view), Status::Unsupported);
+  EXPECT_EQ(createView(made, empty, viewDesc, &view), Status::Unsupported);
   EXPECT_TRUE(contains(lastDiagnostic(), "createView needs a context with kCapabilitySky"))
       << lastDiagnostic();
   destroyContext(made);
@@ -125,11 +127,11 @@ TEST_F(StandardSkyTest, WithoutDynamicRenderingRenderPassesDraw) {
   bakeAll(device(), baked);
   View* view = nullptr;
   ViewDesc viewDesc;
-  viewDesc.solver = Solver::Standard;
+  viewDesc.sky = SkyMethod::Integrate;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-  EXPECT_EQ(createView(made, viewDesc, &view), Status::Unsupported);
+  EXPECT_EQ(createView(made, baked, viewDesc, &view), Status::Unsupported);
   EXPECT_TRUE(contains(lastDiagnostic(), "dynamicRendering")) << lastDiagnostic();
-  const SkyDraw draw =
+  const FrameState draw =
       makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0),
                {std::sqrt(0.5), 0.0, std::sqrt(0.5)}, {24, 16});
   {
@@ -138,9 +140,9 @@ TEST_F(StandardSkyTest, WithoutDynamicRenderingRenderPassesDraw) {
     targetDesc.renderPass = true;
     Target target(device(), targetDesc);
     viewDesc.renderPass = target.renderPass();
-    ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok) << lastDiagnostic();
+    ASSERT_EQ(createView(made, baked, viewDesc, &view), Status::Ok) << lastDiagnostic();
     const Picture drawn = target.draw([&](VkCommandBuffer commands) {
-      return recordSky(view, commands, baked, draw) == Status::Ok;
+      return testing::recordSky(view, commands, baked, draw) == Status::Ok;
     });
     EXPECT_EQ(drawn.data, picture(draw).data);
   }

@@ -29,9 +29,9 @@ struct Host {
     status = createTables(context, preset("earth"), tiny, &tables);
     if (status != Status::Ok) return keep(status, tables == nullptr && empty());
     ViewDesc viewDesc;
-    viewDesc.solver = Solver::Standard;
+    viewDesc.sky = SkyMethod::Integrate;
     viewDesc.colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
-    status = createView(context, viewDesc, &view);
+    status = createView(context, tables, viewDesc, &view);
     return status == Status::Ok ? status : keep(status, view == nullptr);
   }
 

@@ -1,12 +1,12 @@
 // Lives of objects: destroyed with frames in flight, uploaded instead of baked, counted.
-#include <cstring>
+#include <utility>
 
 #include "tests/sky/sky_fixture.h"
 
 namespace alpenglow::testing {
 namespace {
 
-SkyDraw someDraw() {
+FrameState someDraw() {
   return makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0),
                   {0.6, 0.0, 0.8}, {24, 16});
 }
@@ -21,9 +21,9 @@ TEST_F(StandardSkyTest, DestroyedInFlightLivesUntilTheFrameCompletes) {
   bakeAll(device(), baked);
   View* view = nullptr;
   ViewDesc viewDesc;
-  viewDesc.solver = Solver::Standard;
+  viewDesc.sky = SkyMethod::Integrate;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-  ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
+  ASSERT_EQ(createView(made, baked, viewDesc, &view), Status::Ok);
   TargetDesc targetDesc;
   targetDesc.extent = {24, 16};
   Target target(device(), targetDesc);
@@ -31,7 +31,7 @@ TEST_F(StandardSkyTest, DestroyedInFlightLivesUntilTheFrameCompletes) {
   const uint64_t frame = device().skipFrame();
   ASSERT_EQ(advanceFrame(made, frame, frame - 1), Status::Ok);
   const Picture drawn = target.draw([&](VkCommandBuffer commands) {
-    const Status status = recordSky(view, commands, baked, someDraw());
+    const Status status = testing::recordSky(view, commands, baked, someDraw());
     destroyView(view);
     destroyTables(baked);
     EXPECT_EQ(advanceFrame(made, frame, frame - 1), Status::Ok);
@@ -90,9 +90,9 @@ TEST_F(StandardSkyTest, ForgottenObjectsGoWithTheContext) {
   ASSERT_EQ(createTables(made, preset("earth"), smallTables(), &baked), Status::Ok);
   View* forgotten = nullptr;
   ViewDesc viewDesc;
-  viewDesc.solver = Solver::Standard;
+  viewDesc.sky = SkyMethod::Integrate;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-  ASSERT_EQ(createView(made, viewDesc, &forgotten), Status::Ok);
+  ASSERT_EQ(createView(made, baked, viewDesc, &forgotten), Status::Ok);
   destroyContext(made);
   EXPECT_TRUE(diagnostics().empty()) << lastDiagnostic();
   other.reset();
@@ -125,14 +125,13 @@ TEST_F(StandardSkyTest, UploadedTablesDrawTheSameBytes) {
     }
     EXPECT_TRUE(ready(uploaded));
     ViewDesc viewDesc;
-    viewDesc.solver = Solver::Standard;
+    viewDesc.sky = SkyMethod::Integrate;
     viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-    viewDesc.mie = mie;
     TargetDesc target;
     target.extent = {24, 16};
-    const Picture fromBake = picture(makeView(viewDesc), baked, someDraw(), target);
+    const Picture fromBake = picture(makeView(viewDesc, baked), baked, someDraw(), target);
     View* view = nullptr;
-    ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
+    ASSERT_EQ(createView(made, uploaded, viewDesc, &view), Status::Ok);
     EXPECT_EQ(picture(view, uploaded, someDraw(), target).data, fromBake.data);
     destroyView(view);
     destroyTables(uploaded);
@@ -164,10 +163,10 @@ TEST_F(StandardSkyTest, ResourcesAreCounted) {
   EXPECT_EQ(report.pipelines, variantsOfBake);
 
   ViewDesc viewDesc;
-  viewDesc.solver = Solver::Standard;
+  viewDesc.sky = SkyMethod::Integrate;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   View* views[2] = {};
-  for (View*& view : views) ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
+  for (View*& view : views) ASSERT_EQ(createView(made, baked, viewDesc, &view), Status::Ok);
   resourceReport(made, &report);
   EXPECT_EQ(report.pipelines, variantsOfBake + 12);
   EXPECT_EQ(report.shaderVariants, variantsOfBake + 6);
@@ -182,6 +181,114 @@ TEST_F(StandardSkyTest, ResourcesAreCounted) {
   resourceReport(made, &report);
   EXPECT_EQ(report.bytes + report.images + report.buffers, 0u);
   EXPECT_EQ(report.peakBytes, whileBaking);
+  destroyContext(made);
+}
+
+// A LUT of a frame that never executes is recorded again, and draws what it would have drawn.
+TEST_F(SkyTest, ALutOfAnAbandonedFrameIsRecordedAgain) {
+  Context* made = nullptr;
+  ASSERT_EQ(createContext(contextDesc(), &made), Status::Ok);
+  TableDesc draft;
+  draft.quality = Quality::Draft;
+  Tables* baked = nullptr;
+  ASSERT_EQ(createTables(made, preset("earth"), draft, &baked), Status::Ok);
+  bakeAll(device(), baked);
+  ViewDesc viewDesc;
+  viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+  View* view = nullptr;
+  ASSERT_EQ(createView(made, baked, viewDesc, &view), Status::Ok) << lastDiagnostic();
+  TargetDesc targetDesc;
+  targetDesc.extent = {24, 16};
+  Target target(device(), targetDesc);
+  const FrameDesc desc = frameDesc(someDraw());
+  FrameWork work;
+  uint64_t frame = 1, updates = 0;
+  const auto begin = [&] {
+    ++frame;
+    ASSERT_EQ(advanceFrame(made, frame, frame - 2), Status::Ok) << lastDiagnostic();
+    ASSERT_EQ(beginFrame(view, desc, &work), Status::Ok) << lastDiagnostic();
+  };
+  const auto drawn = [&] {
+    run([&](VkCommandBuffer commands) { return recordLuts(view, commands) == Status::Ok; });
+    return target.draw([&](VkCommandBuffer commands) {
+      return alpenglow::recordSky(view, commands) == Status::Ok;
+    });
+  };
+  const auto updated = [&] {
+    ResourceReport report;
+    resourceReport(made, &report);
+    return std::exchange(updates, report.lutUpdates) != report.lutUpdates;
+  };
+  begin();
+  EXPECT_TRUE(work.record & kRecordLuts);
+  std::string error;
+  device().run(
+      [&](VkCommandBuffer commands) {
+        EXPECT_EQ(recordLuts(view, commands), Status::Ok);
+        return false;
+      },
+      &error);
+  EXPECT_TRUE(updated());
+  begin();
+  EXPECT_FALSE(work.record & kRecordLuts) << "It is kept for the same frame.";
+  ASSERT_EQ(abandonFrame(made, frame - 1), Status::Ok);
+  begin();
+  EXPECT_TRUE(work.record & kRecordLuts);
+  const Picture first = drawn();
+  EXPECT_TRUE(updated());
+  begin();
+  EXPECT_FALSE(work.record & kRecordLuts);
+  EXPECT_EQ(drawn().data, first.data);
+  EXPECT_FALSE(updated());
+  // What destroyContext finds alive, it destroys.
+  destroyContext(made);
+  EXPECT_TRUE(diagnostics().empty()) << lastDiagnostic();
+}
+
+// Between beginFrame and the record functions of a frame, and between frames in flight, nothing that
+// they use goes away: not with a picture of another size, nor with tables that are destroyed.
+TEST_F(SkyTest, TablesMayBeDestroyedWhileTheirFramesAreInFlight) {
+  Context* made = nullptr;
+  ASSERT_EQ(createContext(contextDesc(), &made), Status::Ok);
+  TableDesc draft;
+  draft.quality = Quality::Draft;
+  Tables *first = nullptr, *second = nullptr;
+  ASSERT_EQ(createTables(made, preset("earth"), draft, &first), Status::Ok);
+  ASSERT_EQ(createTables(made, preset("mars"), draft, &second), Status::Ok);
+  bakeAll(device(), first);
+  bakeAll(device(), second);
+  finishFrames(made);
+  ViewDesc viewDesc;
+  viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
+  viewDesc.sky = SkyMethod::Integrate;
+  View* view = nullptr;
+  ASSERT_EQ(createView(made, first, viewDesc, &view), Status::Ok) << lastDiagnostic();
+  ResourceReport before, report;
+  resourceReport(made, &before);
+  TargetDesc targetDesc;
+  targetDesc.extent = {24, 16};
+  Target target(device(), targetDesc);
+  const uint64_t frame = device().frame();
+  ASSERT_EQ(advanceFrame(made, frame, frame - 1), Status::Ok);
+  const Picture drawn = target.draw([&](VkCommandBuffer commands) {
+    const Status status = testing::recordSky(view, commands, nullptr, someDraw());
+    destroyTables(first);
+    EXPECT_EQ(advanceFrame(made, frame + 1, frame - 1), Status::Ok);
+    resourceReport(made, &report);
+    EXPECT_EQ(report.images, before.images);
+    EXPECT_EQ(report.bytes, before.bytes);
+    return status == Status::Ok;
+  });
+  EXPECT_EQ(drawn.data, picture(someDraw()).data);
+  // The tables of createView are gone; others serve.
+  EXPECT_EQ(beginFrame(view, frameDesc(someDraw()), nullptr), Status::InvalidArgument);
+  EXPECT_NE(lastDiagnostic().find("FrameDesc::tables"), std::string::npos) << lastDiagnostic();
+  EXPECT_EQ(beginFrame(view, frameDesc(someDraw(), second), nullptr), Status::Ok);
+  EXPECT_EQ(advanceFrame(made, frame + 1, frame), Status::Ok);
+  resourceReport(made, &report);
+  EXPECT_LT(report.images, before.images);
+  destroyView(view);
+  destroyTables(second);
   destroyContext(made);
 }
 

@@ -294,9 +294,9 @@ TEST_F(StandardSkyTest, AllocationCallbacksArePaired) {
   bakeAll(device(), baked);
   View* view = nullptr;
   ViewDesc viewDesc;
-  viewDesc.solver = Solver::Standard;
+  viewDesc.sky = SkyMethod::Integrate;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-  ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
+  ASSERT_EQ(createView(made, baked, viewDesc, &view), Status::Ok);
   EXPECT_EQ(probe(device(), baked, {ProbeQuery{}}).size(), 1u);
   EXPECT_GT(counter.alive, 10);  // Not every driver asks for every object.
   destroyView(view);
@@ -344,10 +344,10 @@ TEST_F(StandardSkyTest, RecordingAllocatesNothing) {
 
   View* view = nullptr;
   ViewDesc viewDesc;
-  viewDesc.solver = Solver::Standard;
+  viewDesc.sky = SkyMethod::Integrate;
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-  ASSERT_EQ(createView(made, viewDesc, &view), Status::Ok);
-  SkyDraw draw = makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0),
+  ASSERT_EQ(createView(made, baked, viewDesc, &view), Status::Ok);
+  FrameState draw = makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0),
                           {0.6, 0.0, 0.8}, {24, 16});
   TargetDesc targetDesc;
   targetDesc.extent = draw.viewport.extent;
@@ -359,7 +359,7 @@ TEST_F(StandardSkyTest, RecordingAllocatesNothing) {
       const int before = counter.total;
       newCalls = 0;
       counting = true;
-      const Status status = recordSky(view, commands, baked, draw);
+      const Status status = testing::recordSky(view, commands, baked, draw);
       counting = false;
       EXPECT_EQ(newCalls, 0);
       EXPECT_EQ(counter.total, before);

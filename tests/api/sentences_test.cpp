@@ -1,10 +1,12 @@
 // Every failing call says one sentence: those that need no device.
+#include <alpenglow/camera.h>
 #include <alpenglow/mesh.h>
 #include <alpenglow/plan.h>
 #include <alpenglow/reference.h>
 #include <alpenglow/terrain.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "tests/engine/mock_vulkan.h"
@@ -74,7 +76,48 @@ ProbeQuery badQuery() {
   return query;
 }
 
+constexpr double kIdentity[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+
+/// cameraFromMatrices with one element of a good pair changed.
+Status matricesSpoilt(Sink sink, bool world, int element, double value,
+                      DepthConvention depth = DepthConvention::Reversed) {
+  double fromView[16], clip[16] = {};
+  std::copy_n(kIdentity, 16, fromView);
+  clip[0] = 1.0, clip[5] = -2.0, clip[11] = -1.0, clip[14] = 0.5;  // Infinitely far, reversed.
+  (world ? fromView : clip)[element] = value;
+  Camera camera;
+  camera.fov = 7.0;
+  const Status status = cameraFromMatrices(fromView, clip, depth, false, &camera, sink);
+  EXPECT_EQ(camera.fov, 7.0) << "A refused camera has changed.";
+  return status;
+}
+
 const Call kCalls[] = {
+    // camera.h
+    {"cameraFromMatrices", "null argument",
+     [](Sink sink) {
+       return cameraFromMatrices(kIdentity, nullptr, DepthConvention::Standard, false, nullptr, sink);
+     }},
+    {"cameraFromMatrices", "worldFromView that is not finite",
+     [](Sink sink) { return matricesSpoilt(sink, true, 5, kNaN); }},
+    {"cameraFromMatrices", "clipFromView that is not finite",
+     [](Sink sink) { return matricesSpoilt(sink, false, 14, kNaN); }},
+    {"cameraFromMatrices", "scale or shear",
+     [](Sink sink) { return matricesSpoilt(sink, true, 0, 1.1); }},
+    {"cameraFromMatrices", "neither a perspective",
+     [](Sink sink) { return matricesSpoilt(sink, false, 11, 1.0); }},
+    {"cameraFromMatrices", "mirrors",
+     [](Sink sink) { return matricesSpoilt(sink, false, 5, 2.0); }},
+    {"cameraFromMatrices", "with a shear",
+     [](Sink sink) { return matricesSpoilt(sink, false, 4, 0.5); }},
+    {"cameraFromMatrices", "oblique",
+     [](Sink sink) { return matricesSpoilt(sink, false, 2, 0.5); }},
+    {"cameraFromMatrices", "off-centre",
+     [](Sink sink) { return matricesSpoilt(sink, false, 8, 0.5); }},
+    {"cameraFromMatrices", "DepthConvention",
+     [](Sink sink) {
+       return matricesSpoilt(sink, false, 14, 0.5, DepthConvention::Standard);
+     }},
     // context.h
     {"queryRequirements", "requirements",
      [](Sink sink) { return queryRequirements(contextDesc(sink), nullptr); }},

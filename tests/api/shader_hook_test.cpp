@@ -60,17 +60,19 @@ class ShaderHookTest : public SkyTest {
     if (tables != nullptr) tables_.push_back(tables);
     return tables;
   }
-  Status makeView(View** out) {
-    const Status status = createView(hooked_, viewDesc(), out);
+  Status makeView(const Tables* tables, View** out) {
+    ViewDesc desc = viewDesc();
+    desc.sky = SkyMethod::Integrate;
+    const Status status = createView(hooked_, tables, desc, out);
     if (status == Status::Ok) views_.push_back(*out);
     return status;
   }
   Picture draw(View* view, const Tables* tables) {
     const TargetDesc target;
-    Camera camera = cameraFromGeodetic(preset("earth"), 0.0, 0.0, 100.0, 0.0, 0.3, 0.0, 1.0);
-    const SkyDraw sky = makeDraw(camera, {0.7071, 0.0, 0.7071}, target.extent);
+    EyeCamera camera = cameraFromGeodetic(preset("earth"), 0.0, 0.0, 100.0, 0.0, 0.3, 0.0, 1.0);
+    const FrameState sky = makeDraw(camera, {0.7071, 0.0, 0.7071}, target.extent);
     return Target(device(), target).draw([&](VkCommandBuffer commands) {
-      return recordSky(view, commands, tables, sky) == Status::Ok;
+      return testing::recordSky(view, commands, tables, sky) == Status::Ok;
     });
   }
 
@@ -84,13 +86,13 @@ TEST_F(ShaderHookTest, TheNextViewUsesTheHostsCodeAndTheOneAfterItOurs) {
   Tables* tables = bake();
   bakeAll(device(), tables);
   View *own = nullptr, *flat = nullptr, *again = nullptr;
-  ASSERT_EQ(makeView(&own), Status::Ok);
+  ASSERT_EQ(makeView(tables, &own), Status::Ok);
   EXPECT_TRUE(replacement_.asked.contains("kSkyFragment"));
   replacement_.prefix = "kSkyFragment";
   replacement_.code = shaders::kHostFlat;
-  ASSERT_EQ(makeView(&flat), Status::Ok) << lastDiagnostic();
+  ASSERT_EQ(makeView(tables, &flat), Status::Ok) << lastDiagnostic();
   replacement_.prefix = "";
-  ASSERT_EQ(makeView(&again), Status::Ok);
+  ASSERT_EQ(makeView(tables, &again), Status::Ok);
 
   const Picture sky = draw(own, tables), painted = draw(flat, tables), same = draw(again, tables);
   EXPECT_EQ(painted.at(5, 5)[0], 3.0f);
@@ -100,11 +102,12 @@ TEST_F(ShaderHookTest, TheNextViewUsesTheHostsCodeAndTheOneAfterItOurs) {
 }
 
 TEST_F(ShaderHookTest, CodeThatDoesNotFitIsRefusedWithASentence) {
+  const Tables* const tables = bake();
   const auto refused = [&](Words code, const char* parts) {
     replacement_.prefix = "kSkyFragment";
     replacement_.code = code;
     View* view = nullptr;
-    EXPECT_EQ(makeView(&view), Status::InvalidArgument);
+    EXPECT_EQ(makeView(tables, &view), Status::InvalidArgument);
     EXPECT_EQ(view, nullptr);
     EXPECT_TRUE(hasAll(lastDiagnostic(), parts)) << lastDiagnostic();
   };

@@ -61,38 +61,49 @@ class EffectsBench : public ShaftTest {
     return tables;
   }
 
-  View* makeOne(const ViewDesc& desc, double* taken) {
+  View* makeOne(Tables* tables, const ViewDesc& desc, double* taken) {
     const double before = bytes();
-    View* view = makeView(desc);
+    View* view = makeView(desc, tables);
     *taken = bytes() - before;
-    recordSlice(view, desc.skySlice, looking_);
+    recordOnce(view, tables);
     return view;
+  }
+
+  /// The LUTs, of a frame that needs them anew.
+  void recordOnce(View* view, const Tables* tables) {
+    looking_.camera.position_m[0] += 0.01;
+    FrameDesc frame = frameDesc(looking_, tables);
+    frame.sceneDepth = rigOf(host_, kExtent).scene;
+    run([&](VkCommandBuffer commands) {
+      EXPECT_EQ(beginFrame(view, frame, nullptr), Status::Ok) << message();
+      return alpenglow::recordLuts(view, commands) == Status::Ok;
+    });
   }
 
   void make(EffectCase* each) {
     each->tables = bakeOnce(each);
     each->bake_s = 1e9;
+    host_.shafts = false;
     ViewDesc desc = viewDesc();
-    desc.without = each->without | kGroundAndDisc;
-    desc.skySlice = each->tables;
-    desc.alwaysSliced = true;
-    each->sky = makeOne(desc, &each->sliceBytes);
-    ShaftSetup host;
-    host.shafts = host.sliced = false;
-    host.without = kViewEffects;
-    desc.sceneDepth = rigOf(host, kExtent).scene;
-    each->air = makeOne(desc, &each->airBytes);
+    desc.sky = SkyMethod::Lut;
+    desc.disabledEffects = each->without | kGroundAndDisc;
+    each->sky = makeOne(each->tables, desc, &each->sliceBytes);
+    desc.aerialPerspective = AerialPerspective::On;
+    desc.sceneDepthFormat = host_.depthFormat;
+    desc.depth = host_.depth;
+    each->air = makeOne(each->tables, desc, &each->airBytes);
   }
 
   /// The kernel shares time out by its ticks, so a mean takes many of them.
-  void slices(View* view, const Tables* tables, double* seconds) {
+  void luts(View* view, const Tables* tables, double* seconds) {
     const double start = userSeconds();
     int count = 0;
-    for (; userSeconds() - start < 0.3; ++count) recordSlice(view, tables, looking_);
+    for (; userSeconds() - start < 0.3; ++count) recordOnce(view, tables);
     *seconds = std::min(*seconds, (userSeconds() - start) / count);
   }
 
-  SkyDraw looking_;
+  FrameState looking_;
+  ShaftSetup host_;  ///< Its depth is stated with the frames.
 };
 
 // By turns, so that what else the machine does meets all alike.
@@ -112,8 +123,8 @@ TEST_F(EffectsBench, WhatEachSaves) {
   for (int round = 0; round < 4; ++round) {
     for (EffectCase& each : cases) {
       if (round > 0) destroyTables(bakeOnce(&each));
-      slices(each.sky, each.tables, &each.slice_s);
-      slices(each.air, each.tables, &each.air_s);
+      luts(each.sky, each.tables, &each.slice_s);
+      luts(each.air, each.tables, &each.air_s);
     }
   }
   std::printf(

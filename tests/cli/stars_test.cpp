@@ -1,7 +1,7 @@
 // Stars in pictures: their light against the catalogue and the reference's transmittance.
+#include <alpenglow/camera.h>
 #include <alpenglow/io/image_file.h>
 #include <alpenglow/reference.h>
-#include <alpenglow/view.h>
 
 #include <algorithm>
 #include <cmath>
@@ -244,14 +244,14 @@ struct Seen {
 std::vector<Seen> starsOf(const LinearImage& with, const LinearImage& without, const Shot& shot) {
   Parameters earth;
   EXPECT_EQ(findPreset("earth", &earth, {}), Status::Ok);
-  SkyDraw draw;
-  draw.camera = cameraFromGeodetic(earth, kLatitude / kDegrees, 0.0, shot.altitude_m,
-                                   shot.aim.azimuth_deg / kDegrees,
-                                   shot.aim.elevation_deg / kDegrees, 0.0, shot.fov_deg / kDegrees);
-  draw.viewport.extent = {shot.width, shot.height};
-  draw.depth.near_m = 1.0;
+  Camera camera = cameraAt(earth, {}, kLatitude / kDegrees, 0.0, shot.altitude_m,
+                           shot.aim.azimuth_deg / kDegrees, shot.aim.elevation_deg / kDegrees, 0.0);
+  camera.fov = shot.fov_deg / kDegrees;
+  camera.viewport.extent = {shot.width, shot.height};
+  camera.nearPlane = 1.0;
   float m[16];
-  clipFromCamera(Projection::Perspective, DepthConvention::Reversed, draw, m);
+  EXPECT_EQ(clipFromCamera(Projection::Perspective, DepthConvention::Reversed, camera, m),
+            Status::Ok);
   std::vector<Seen> seen;
   for (const Star& star : samples::starCatalogue()) {
     double d[3];

@@ -20,8 +20,8 @@ INSTANTIATE_TEST_SUITE_P(Models, EveryModelTest,
                                            Solver::Schafhitzel, Solver::Hillaire),
                          titleOf);
 
-SkyDraw drawFrom(double altitude, double pitch, double elevation, double fov, VkExtent2D extent) {
-  const Camera camera = cameraFromGeodetic(preset("earth"), 0.5, -1.2, altitude, radians(100.0),
+FrameState drawFrom(double altitude, double pitch, double elevation, double fov, VkExtent2D extent) {
+  const EyeCamera camera = cameraFromGeodetic(preset("earth"), 0.5, -1.2, altitude, radians(100.0),
                                            radians(pitch), 0.1, radians(fov));
   double sun[3];
   sunDirection(0.5, -1.2, radians(elevation), radians(80.0), sun);
@@ -68,7 +68,7 @@ TEST_P(EveryModelTest, AnswersAreFiniteAndNotNegative) {
 TEST_P(EveryModelTest, PixelsAreWhatProbesAnswer) {
   for (const double altitude : {2.0, 1e4, 1e6}) {
     for (const double elevation : {40.0, 3.0}) {
-      const SkyDraw draw =
+      const FrameState draw =
           drawFrom(altitude, altitude > 1e5 ? -50.0 : 5.0, elevation, 70.0, {40, 32});
       const Picture drawn = picture(draw);
       EXPECT_EQ(badValue(drawn), "");
@@ -98,7 +98,7 @@ TEST_P(EveryModelTest, PixelsAreWhatProbesAnswer) {
 TEST_P(EveryModelTest, SlicesAreTheSkyViewTable) {
   View* const sliced = slicedView(Projection::Perspective);
   for (const double altitude : {2.0, 8e3, 1e6}) {
-    const SkyDraw draw = drawFrom(altitude, altitude > 1e5 ? -50.0 : 10.0, 30.0, 60.0, {64, 48});
+    const FrameState draw = drawFrom(altitude, altitude > 1e5 ? -50.0 : 10.0, 30.0, 60.0, {64, 48});
     recordSlice(sliced, tables(), draw);
     const Picture from = picture(sliced, tables(), draw), plain = picture(draw);
     EXPECT_EQ(badValue(from), "");
@@ -116,7 +116,7 @@ TEST_P(EveryModelTest, SlicesAreTheSkyViewTable) {
 TEST_P(EveryModelTest, FisheyesAndOrthographicPicturesHaveGoodValues) {
   for (const Projection projection : {Projection::Fisheye, Projection::Orthographic}) {
     for (const double elevation : {90.0, 20.0, -1.0, -10.0}) {
-      SkyDraw draw = drawFrom(2.0, 90.0, elevation, 180.0, {48, 48});
+      FrameState draw = drawFrom(2.0, 90.0, elevation, 180.0, {48, 48});
       draw.camera.height_m = 1e5;
       EXPECT_EQ(badValue(picture(draw, projection)), "") << "sun at " << elevation;
     }

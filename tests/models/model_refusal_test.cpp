@@ -54,14 +54,17 @@ TEST_F(ModelRefusalTest, TablesHaveNoId) {
 }
 
 TEST_F(ModelRefusalTest, ViewsOfAnotherSolver) {
-  ViewDesc desc;
-  desc.solver = Solver::Hillaire;
-  View* const view = makeView(desc);
-  const SkyDraw draw =
+  TableDesc other;
+  other.solver = Solver::Hillaire;
+  Tables* shape = nullptr;
+  ASSERT_EQ(createTables(context(), preset("earth"), other, &shape), Status::Ok) << message();
+  View* const view = makeView({}, shape);
+  destroyTables(shape);
+  const FrameState draw =
       makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0),
                {1.0, 0.0, 0.0}, {8, 8});
   const Status status =
-      recordSky(view, reinterpret_cast<VkCommandBuffer>(1), tables(), draw);
+      testing::recordSky(view, reinterpret_cast<VkCommandBuffer>(1), tables(), draw);
   EXPECT_EQ(status, Status::InvalidArgument);
   EXPECT_TRUE(hasAll(message(), "Solver::Moments|Hillaire")) << message();
 }

@@ -2,9 +2,6 @@
 #include <alpenglow/plan.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <iterator>
-#include <new>
 #include <random>
 #include <string>
 
@@ -245,26 +242,6 @@ TEST(Plan, ExpectsTheSecondsOfABake) {
   request.budgetSeconds = 1e-3;
   EXPECT_FALSE(planOf(request).budgetMet);
   EXPECT_GT(planOf(noon()).expectedBakeSeconds, 0.0);
-}
-
-/// Over bytes that are zero, since what pads a struct is nobody's.
-template <typename T>
-bool allZero() {
-  alignas(T) static unsigned char bytes[sizeof(T)];
-  new (bytes) T{};
-  return std::all_of(std::begin(bytes), std::end(bytes), [](unsigned char b) { return b == 0; });
-}
-
-TEST(Plan, ZeroIsTheDefault) {
-  EXPECT_TRUE(allZero<Plan>());
-  EXPECT_TRUE(allZero<PlanRequest>());
-  EXPECT_TRUE(allZero<PlanChoice>());
-  EXPECT_TRUE(allZero<ContextDesc>());
-  EXPECT_TRUE(allZero<Requirements>());
-  EXPECT_TRUE(allZero<Diagnostic>());
-  EXPECT_TRUE(allZero<Preset>());
-  EXPECT_TRUE(allZero<HostImage>());
-  EXPECT_TRUE(allZero<ImageInfo>());
 }
 
 }  // namespace

@@ -44,19 +44,19 @@ class AirTest : public SkyTest {
 
   /// One for all tests of a program, made at the first use.
   sky::AirVolume* volume();
-  void fill(const SkyDraw& draw, Tables* with = nullptr);
+  void fill(const FrameState& draw, Tables* with = nullptr);
   /// Looks into the volume as it was filled last.
-  std::vector<AirAnswer> ask(const SkyDraw& draw, const std::vector<AirQuery>& queries,
+  std::vector<AirAnswer> ask(const FrameState& draw, const std::vector<AirQuery>& queries,
                              Tables* with = nullptr);
   /// User CPU seconds of a submit with `count` queries, or of filling the volume: the least of
   /// some.
-  double askSeconds(const SkyDraw& draw, AirAsk what, const std::vector<AirQuery>& queries);
-  double fillSeconds(const SkyDraw& draw);
-  static LookupConstants lookupConstants(const Parameters& parameters, const SkyDraw& draw);
+  double askSeconds(const FrameState& draw, AirAsk what, const std::vector<AirQuery>& queries);
+  double fillSeconds(const FrameState& draw);
+  static LookupConstants lookupConstants(const Parameters& parameters, const FrameState& draw);
 
  private:
   void makeObjects();
-  bool recordAsk(VkCommandBuffer commands, const SkyDraw& draw, AirAsk what, size_t count,
+  bool recordAsk(VkCommandBuffer commands, const FrameState& draw, AirAsk what, size_t count,
                  Tables* baked);
   double leastSeconds(const std::function<bool(VkCommandBuffer)>& record);
 };

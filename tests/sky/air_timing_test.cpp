@@ -13,7 +13,7 @@ TEST_F(AirTimingTest, AVolumeAndItsLookups) {
     double sun[3];
     sunDirection(0.0, 0.0, radians(30.0), 0.2, sun);
     const double pitch = altitude > 1e5 ? radians(-40.0) : 0.0;
-    const SkyDraw draw = makeDraw(
+    const FrameState draw = makeDraw(
         cameraFromGeodetic(preset("earth"), 0.0, 0.0, altitude, 0.3, pitch, 0.0, radians(60.0)),
         vec(sun), {256, 256});
     // As neighbours in a picture of terrain: distances by the row.

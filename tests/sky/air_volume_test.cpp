@@ -38,7 +38,7 @@ struct AirErrors {
 
 class AirVolumeTest : public AirTest {
  protected:
-  SkyDraw drawOf(double altitude, double elevation) {
+  FrameState drawOf(double altitude, double elevation) {
     double sun[3];
     sunDirection(0.0, 0.0, radians(elevation), kSunAzimuth, sun);
     return makeDraw(
@@ -133,11 +133,11 @@ class AirVolumeTest : public AirTest {
 // twilight, and from space, where the terminator is in view and the thin air's segments are next to
 // dark, it is missed: there errors count against a thousandth of the brightest ray.
 TEST_F(AirVolumeTest, IsTheLightOfPathsAtAllDistances) {
-  std::printf("%u bytes\n", static_cast<unsigned>(volume()->bytes()));
+  std::printf("%u bytes\n", static_cast<unsigned>(volume()->lut().bytes()));
   std::printf("per cent, p95 p99 max: own segment (>= 100 m) | scene | single | transmittance\n");
   for (const Place& place : kPlaces) {
     for (const double sun : kSuns) {
-      const SkyDraw draw = drawOf(place.altitude, sun);
+      const FrameState draw = drawOf(place.altitude, sun);
       fill(draw);
       const std::vector<AirAnswer> answers = ask(draw, queriesOf(place.altitude, sun));
       EXPECT_EQ(badAnswer(answers), "") << place.name << ", sun " << sun;
@@ -160,7 +160,7 @@ TEST_F(AirVolumeTest, IsTheLightOfPathsAtAllDistances) {
 // one's.
 TEST_F(AirVolumeTest, DifferencesAreThoseOfStretches) {
   for (const Place& place : kPlaces) {
-    const SkyDraw draw = drawOf(place.altitude, 10.0);
+    const FrameState draw = drawOf(place.altitude, 10.0);
     fill(draw);
     const double dip = horizonDip(preset("earth"), place.altitude);
     std::mt19937 random(3);
@@ -208,7 +208,7 @@ TEST_F(AirVolumeTest, HasNoStepInDistanceNorAtTheHorizon) {
   for (const Place& place : kPlaces) {
     if (place.altitude > 1e5) continue;  // from there the horizon is beyond the air that counts
     for (const double sun : {50.0, 3.0}) {
-      const SkyDraw draw = drawOf(place.altitude, sun);
+      const FrameState draw = drawOf(place.altitude, sun);
       fill(draw);
       const double dip = horizonDip(preset("earth"), place.altitude);
       const double reach = std::sqrt(2.0 * 6.36e6 * place.altitude);  // to the horizon
@@ -231,16 +231,16 @@ TEST_F(AirVolumeTest, HasNoStepInDistanceNorAtTheHorizon) {
 }
 
 TEST_F(AirVolumeTest, ServesItsCameraSunAndTablesAlone) {
-  const SkyDraw draw = drawOf(1500.0, 10.0);
+  const FrameState draw = drawOf(1500.0, 10.0);
   ResourceReport before, after;
   resourceReport(context(), &before);
   fill(draw);
   resourceReport(context(), &after);
   EXPECT_EQ(after.dispatches, before.dispatches + 1);
-  EXPECT_TRUE(volume()->serves(*tables(), draw));
-  EXPECT_FALSE(volume()->serves(*tables(), drawOf(1501.0, 10.0)));
-  EXPECT_FALSE(volume()->serves(*tables(), drawOf(1500.0, 10.5)));
-  EXPECT_FALSE(volume()->serves(*tables("earth-hazy"), draw));
+  EXPECT_TRUE(volume()->current(*tables(), draw));
+  EXPECT_FALSE(volume()->current(*tables(), drawOf(1501.0, 10.0)));
+  EXPECT_FALSE(volume()->current(*tables(), drawOf(1500.0, 10.5)));
+  EXPECT_FALSE(volume()->current(*tables("earth-hazy"), draw));
 }
 
 }  // namespace

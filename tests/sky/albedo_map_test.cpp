@@ -9,7 +9,7 @@ namespace {
 
 constexpr uint32_t kWidth = 64, kHeight = 32;
 
-/// A float map with a sampler as GroundAlbedoMap asks for.
+/// A float map with a sampler as ViewDesc::groundAlbedo asks for.
 class Map {
  public:
   /// albedo(longitude, latitude), radians, at texel centres.
@@ -47,12 +47,11 @@ class Map {
   Map(const Map&) = delete;
   Map& operator=(const Map&) = delete;
 
-  GroundAlbedoMap map() const {
-    GroundAlbedoMap map;
+  HostImage map() const {
+    HostImage map;
     map.view = image_.view();
     map.sampler = sampler_;
-    map.width = kWidth;
-    map.height = kHeight;
+    map.extent = {kWidth, kHeight};
     return map;
   }
 
@@ -108,19 +107,20 @@ class MapDrawing {
   MapDrawing(const MapDrawing&) = delete;
   MapDrawing& operator=(const MapDrawing&) = delete;
 
-  Picture draw(const Map& map, const SkyDraw& sky) {
+  Picture draw(const Map& map, const FrameState& sky) {
     ViewDesc desc;
+    desc.sky = SkyMethod::Integrate;
     desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
     desc.groundAlbedo = map.map();
     View*& view = views_[&map];
     if (view == nullptr) {
-      EXPECT_EQ(createView(context_, desc, &view), Status::Ok);
+      EXPECT_EQ(createView(context_, tables_, desc, &view), Status::Ok);
     }
     TargetDesc targetDesc;
     targetDesc.extent = sky.viewport.extent;
     Target target(device_, targetDesc);
     return target.draw([&](VkCommandBuffer commands) {
-      return recordSky(view, commands, tables_, sky) == Status::Ok;
+      return testing::recordSky(view, commands, tables_, sky) == Status::Ok;
     });
   }
 
@@ -132,9 +132,9 @@ class MapDrawing {
 };
 
 /// Straight down, the sun in the zenith there; north is up in the picture.
-SkyDraw lookDown(const Parameters& p, double latitude, double longitude, double altitude,
+FrameState lookDown(const Parameters& p, double latitude, double longitude, double altitude,
                  double fov, VkExtent2D extent) {
-  const Camera camera =
+  const EyeCamera camera =
       cameraFromGeodetic(p, latitude, longitude, altitude, 0.0, radians(-90.0), 0.0, fov);
   return makeDraw(camera, unit(vec(camera.position_m)), extent);
 }
@@ -144,7 +144,7 @@ TEST_F(SkyTest, UniformMapIsUniformAlbedo) {
   const Map map(device(), [&](double, double) { return vec(earth.groundAlbedo.value); });
   MapDrawing drawing(device(), context(), tables());
   for (const double altitude : {0.0, 2.0, 1e4, 3.6e7}) {
-    const SkyDraw draw = lookDown(earth, 0.4, 0.5, altitude, radians(18.0), {24, 24});
+    const FrameState draw = lookDown(earth, 0.4, 0.5, altitude, radians(18.0), {24, 24});
     const Picture uniform = picture(draw);
     const Picture mapped = drawing.draw(map, draw);
     for (size_t i = 0; i < uniform.data.size(); ++i)
@@ -164,7 +164,7 @@ TEST_F(SkyTest, MapIsTheRightWayRound) {
   });
   MapDrawing drawing(device(), context(), tables());
   const auto check = [&](double latitude, double longitude, double row, const Vec& wanted) {
-    SkyDraw draw =
+    FrameState draw =
         lookDown(earth, radians(latitude), radians(longitude), 2e6, radians(30.0), {9, 9});
     const auto y = static_cast<uint32_t>(row);
     const Picture w = drawing.draw(white, draw), b = drawing.draw(black, draw),
@@ -195,7 +195,7 @@ TEST_F(SkyTest, NoLineAtTheSeam) {
   MapDrawing drawing(device(), context(), tables());
   for (const double latitude : {0.0, 50.0, 75.0}) {
     for (const double altitude : {1e4, 3e5, 3.6e7}) {
-      const SkyDraw draw = lookDown(earth, radians(latitude), radians(180.0), altitude,
+      const FrameState draw = lookDown(earth, radians(latitude), radians(180.0), altitude,
                                     altitude > 1e7 ? radians(3.0) : radians(60.0), {64, 32});
       const Picture drawn = drawing.draw(smooth, draw);
       // A line would be a bend; the map's own texels bend it by under 1 %.

@@ -9,13 +9,13 @@ namespace {
 constexpr double kSunRadius = radians(0.2667);
 
 /// Looks at the sun, `off` radians beside it.
-SkyDraw towardsSun(const Parameters& parameters, double altitude, double elevation, double fov,
+FrameState towardsSun(const Parameters& parameters, double altitude, double elevation, double fov,
                    VkExtent2D extent, double off = 0.0) {
-  const Camera camera = cameraFromGeodetic(parameters, 0.2, 0.3, altitude, 1.0 + off,
+  const EyeCamera camera = cameraFromGeodetic(parameters, 0.2, 0.3, altitude, 1.0 + off,
                                            elevation + 0.7 * off, 0.0, fov);
   double sun[3];
   sunDirection(0.2, 0.3, elevation, 1.0, sun);
-  SkyDraw draw = makeDraw(camera, vec(sun), extent);
+  FrameState draw = makeDraw(camera, vec(sun), extent);
   draw.sun.discRadius = kSunRadius;
   return draw;
 }
@@ -28,7 +28,7 @@ Picture discOnly(const Picture& with, const Picture& without) {
 }
 
 /// Integral of radiance over solid angle, first channel. The picture's pixels are small.
-double power(const Picture& picture, const SkyDraw& draw, Projection projection) {
+double power(const Picture& picture, const FrameState& draw, Projection projection) {
   double sum = 0.0;
   for (uint32_t y = 0; y < picture.height; ++y) {
     for (uint32_t x = 0; x < picture.width; ++x) {
@@ -45,23 +45,25 @@ double power(const Picture& picture, const SkyDraw& draw, Projection projection)
 }
 
 TEST_F(SkyTest, DiscHasTheSunsRadiance) {
-  const Parameters earth = preset("earth");
+  Parameters earth = preset("earth");
+  earth.solarIrradiance = {{1.0, 2.0, 4.0}};
+  Tables* const colored = tables("earth, 1 2 4", earth);
   const double solidAngle = 2.0 * kPi * (1.0 - std::cos(kSunRadius));
   for (const double altitude : {2.0, 1e4, 3.6e7}) {
     for (const double elevation : {radians(50.0), radians(5.0)}) {
       // 1/60 degree a pixel: the radius is 16 of them.
-      SkyDraw draw = towardsSun(earth, altitude, elevation, radians(0.8), {48, 48});
-      draw.sun.irradiance = {{1.0, 2.0, 4.0}};
-      const Picture with = picture(draw);
+      FrameState draw = towardsSun(earth, altitude, elevation, radians(0.8), {48, 48});
+      draw.sun.irradiance = earth.solarIrradiance;
+      const Picture with = picture(draw, Projection::Perspective, colored);
       draw.sun.discRadius = 0.0;
-      const Picture disc = discOnly(with, picture(draw));
+      const Picture disc = discOnly(with, picture(draw, Projection::Perspective, colored));
       const Vec sun = vec(draw.sun.direction);
       std::vector<ProbeQuery> queries;
       for (uint32_t y = 0; y < disc.height; ++y)
         for (uint32_t x = 0; x < disc.width; ++x)
           queries.push_back(rayQuery(earth, draw.camera,
                                      *pixelDirection(draw, Projection::Perspective, x, y), sun));
-      const std::vector<ProbeAnswer> answers = probeAll(queries);
+      const std::vector<ProbeAnswer> answers = probeAll(queries, colored);
       int inside = 0, outside = 0;
       for (uint32_t i = 0; i < answers.size(); ++i) {
         const uint32_t x = i % disc.width, y = i / disc.width;
@@ -99,7 +101,7 @@ TEST_F(SkyTest, DiscHasTheSunsPowerAtAnyResolution) {
       // In space: T is 1, the sky is black.
       for (int i = 0; i < 12; ++i) {
         const double pixel = fov / 48.0;
-        const SkyDraw draw = towardsSun(earth, 1e7, 1.2, fov, {48, 48}, pixel * 0.37 * i);
+        const FrameState draw = towardsSun(earth, 1e7, 1.2, fov, {48, 48}, pixel * 0.37 * i);
         sum += power(picture(draw, projection), draw, projection);
         ++count;
       }
@@ -111,7 +113,7 @@ TEST_F(SkyTest, DiscHasTheSunsPowerAtAnyResolution) {
 // The power stays even where the square of the radius is no longer a number.
 TEST_F(SkyTest, DiscOfNoWidthIsFinite) {
   const Parameters earth = preset("earth");
-  SkyDraw draw = towardsSun(earth, 1e7, 1.2, radians(20.0), {48, 48});
+  FrameState draw = towardsSun(earth, 1e7, 1.2, radians(20.0), {48, 48});
   draw.sun.discRadius = 1e-200;
   EXPECT_NEAR(power(picture(draw), draw, Projection::Perspective), 1.0, 0.25);
 }
@@ -121,14 +123,14 @@ TEST_F(SkyTest, NoDiscBehindTheGround) {
   for (const double altitude : {0.0, 2.0, 1e4, 3.6e7}) {
     // Just below the horizon, by more than the disc's radius.
     const double dip = horizonDip(earth, altitude);
-    SkyDraw draw = towardsSun(earth, altitude, -dip - radians(0.4), radians(3.0), {32, 32});
+    FrameState draw = towardsSun(earth, altitude, -dip - radians(0.4), radians(3.0), {32, 32});
     const Picture with = picture(draw);
     draw.sun.discRadius = 0.0;
     const Picture without = picture(draw);
     EXPECT_EQ(with.data, without.data) << altitude;
   }
   // Half set: the upper half of the disc is there, the lower is not.
-  SkyDraw draw = towardsSun(earth, 1e4, -horizonDip(earth, 1e4), radians(1.0), {32, 32});
+  FrameState draw = towardsSun(earth, 1e4, -horizonDip(earth, 1e4), radians(1.0), {32, 32});
   const Picture with = picture(draw);
   draw.sun.discRadius = 0.0;
   const Picture disc = discOnly(with, picture(draw));
@@ -140,7 +142,7 @@ TEST_F(SkyTest, NoDiscBehindTheGround) {
 
 TEST_F(SkyTest, NoDiscBesideTheFisheyesCircle) {
   const Parameters earth = preset("earth");
-  SkyDraw draw = towardsSun(earth, 2.0, radians(40.0), radians(60.0), {48, 32});
+  FrameState draw = towardsSun(earth, 2.0, radians(40.0), radians(60.0), {48, 32});
   draw.sun.discRadius = radians(40.0);  // Larger than the circle.
   const Picture drawn = picture(draw, Projection::Fisheye);
   EXPECT_GT(drawn.at(24, 16)[0], 0.0f);

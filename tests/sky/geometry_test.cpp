@@ -70,7 +70,7 @@ TEST_F(SkyTest, SunIsWhereTheAnglesSay) {
       {"roll 90, above", 90, 10, 90, 180, 90, 70, -60.0 / 90.0, 0},
   };
   const auto check = [&](const Aim& aim, Projection projection, VkExtent2D extent) {
-    SkyDraw draw =
+    FrameState draw =
         makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, 1e7, radians(aim.heading), radians(aim.pitch),
                                     radians(aim.roll), radians(aim.fov)),
                  sunAt(radians(aim.elevation), radians(aim.azimuth)), extent);
@@ -98,7 +98,7 @@ TEST_F(SkyTest, SunIsWhereTheAnglesSay) {
 TEST_F(SkyTest, FisheyeIsTheLargestCentredCircle) {
   const Parameters earth = preset("earth");
   for (const VkExtent2D extent : {VkExtent2D{64, 40}, VkExtent2D{40, 64}, VkExtent2D{41, 41}}) {
-    const SkyDraw draw =
+    const FrameState draw =
         makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(90.0), 0.0, radians(180.0)),
                  sunAt(radians(30.0), 1.0), extent);
     const Picture drawn = picture(draw, Projection::Fisheye);
@@ -127,7 +127,7 @@ TEST_F(SkyTest, OnlyTheViewportIsDrawn) {
   for (const Projection projection : {Projection::Perspective, Projection::Fisheye}) {
     for (const VkRect2D& area :
          {VkRect2D{{7, 5}, {24, 17}}, VkRect2D{{0, 13}, {40, 17}}, VkRect2D{{39, 29}, {1, 1}}}) {
-      SkyDraw draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(5.0), 0.0, 1.0),
+      FrameState draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(5.0), 0.0, 1.0),
                               sunAt(radians(30.0), 0.3), area.extent);
       draw.sun.discRadius = radians(5.0);
       const Picture alone = picture(draw, projection);
@@ -160,7 +160,7 @@ TEST(CameraTest, AnglesOfTheGround) {
     for (size_t i = 0; i < 3; ++i) EXPECT_NEAR(got[i], wanted[i], 1e-9) << what << " " << i;
   };
   // Latitude 0, longitude 0: up is x, east is y, north is z.
-  Camera c = cameraFromGeodetic(earth, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 1.0);
+  EyeCamera c = cameraFromGeodetic(earth, 0.0, 0.0, 100.0, 0.0, 0.0, 0.0, 1.0);
   expect(c.position_m, {earth.bottomRadius_m + 100.0, 0.0, 0.0}, "position");
   expect(c.forward, {0.0, 0.0, 1.0}, "north");
   expect(c.up, {1.0, 0.0, 0.0}, "up");

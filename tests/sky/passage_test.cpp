@@ -108,7 +108,7 @@ TEST_F(PassageTest, SlicesOfBothSidesShowTheSame) {
     double sun[3];
     sunDirection(0.0, 0.0, radians(elevation), 0.5, sun);
     const auto drawn = [&](double altitude) {
-      const SkyDraw draw = makeDraw(
+      const FrameState draw = makeDraw(
           cameraFromGeodetic(earth_, 0.0, 0.0, altitude, 0.0, radians(-90.0), 0.0, 2.0 * kPi),
           vec(sun), {64, 64});
       recordSlice(sliced, tables(), draw);

@@ -39,7 +39,7 @@ struct Rays {
   std::vector<std::pair<uint32_t, uint32_t>> pixels;
 };
 
-Rays raysOf(const Parameters& parameters, const SkyDraw& draw, Projection projection) {
+Rays raysOf(const Parameters& parameters, const FrameState& draw, Projection projection) {
   Rays rays;
   for (uint32_t y = 0; y < draw.viewport.extent.height; ++y) {
     for (uint32_t x = 0; x < draw.viewport.extent.width; ++x) {
@@ -97,12 +97,12 @@ TEST_P(PixelTest, PixelsAreWhatProbesAnswer) {
   const Parameters earth = preset("earth");
   for (const Case& one : kCases) {
     for (const double elevation : {40.0, 1.0, -6.0}) {
-      const Camera camera =
+      const EyeCamera camera =
           cameraFromGeodetic(earth, radians(30.0), radians(-70.0), one.altitude, radians(100.0),
                              radians(one.pitch), radians(20.0), radians(one.fov));
       double sun[3];
       sunDirection(radians(30.0), radians(-70.0), radians(elevation), radians(80.0), sun);
-      const SkyDraw draw = makeDraw(camera, vec(sun), {40, 32});
+      const FrameState draw = makeDraw(camera, vec(sun), {40, 32});
       const Rays rays = raysOf(earth, draw, one.projection);
       const std::vector<ProbeAnswer> answers = probeAll(rays.queries);
       ASSERT_GT(answers.size(), 600u);
@@ -122,19 +122,16 @@ TEST_P(PixelTest, PixelsAreWhatProbesAnswer) {
 
 // Packed tables, and another planet.
 TEST_F(StandardSkyTest, PixelsAreWhatProbesAnswerForOtherTables) {
-  ViewDesc packed;
-  packed.solver = Solver::Standard;
-  packed.mie = MieStorage::Packed;
-  View* const packedView = makeView(packed);
+  View* const packedView = makeView(viewDesc(), tables("earth", MieStorage::Packed));
   for (const char* name : {"earth", "mars"}) {
     const bool isPacked = name[0] == 'e';
     const Parameters parameters = preset(name);
     Tables* const baked = tables(name, isPacked ? MieStorage::Packed : MieStorage::Full);
-    const Camera camera =
+    const EyeCamera camera =
         cameraFromGeodetic(parameters, 0.0, 0.0, 500.0, 0.0, radians(5.0), 0.0, radians(80.0));
     double sun[3];
     sunDirection(0.0, 0.0, radians(8.0), radians(20.0), sun);
-    const SkyDraw draw = makeDraw(camera, vec(sun), {40, 32});
+    const FrameState draw = makeDraw(camera, vec(sun), {40, 32});
     const Rays rays = raysOf(parameters, draw, Projection::Perspective);
     TargetDesc target;
     target.extent = draw.viewport.extent;
@@ -148,15 +145,17 @@ TEST_F(StandardSkyTest, PixelsAreWhatProbesAnswerForOtherTables) {
 // The radiance scale and the sun's irradiance are plain factors, channel by channel.
 TEST_F(SkyTest, IrradianceAndScaleMultiply) {
   const Parameters earth = preset("earth");
-  const Camera camera =
+  const EyeCamera camera =
       cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(5.0), 0.0, radians(80.0));
   double sun[3];
   sunDirection(0.0, 0.0, radians(20.0), radians(20.0), sun);
-  SkyDraw draw = makeDraw(camera, vec(sun), {24, 16});
+  FrameState draw = makeDraw(camera, vec(sun), {24, 16});
   const Picture plain = picture(draw);
-  draw.sun.irradiance = {{2.0, 0.5, 0.0}};
+  Parameters colored = earth;
+  colored.solarIrradiance = {{2.0, 0.5, 0.0}};
   draw.radianceScale = 1024.0;
-  const Picture scaled = picture(draw);
+  const Picture scaled =
+      picture(draw, Projection::Perspective, tables("earth, 2 0.5 0", colored));
   for (uint32_t y = 0; y < plain.height; ++y) {
     for (uint32_t x = 0; x < plain.width; ++x) {
       const float* p = plain.at(x, y);

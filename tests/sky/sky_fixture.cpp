@@ -217,7 +217,14 @@ View* SkyTest::slicedView(Projection projection) {
     ViewDesc desc = viewDesc();
     desc.projection = projection;
     desc.sky = SkyMethod::Lut;
-    EXPECT_EQ(createView(context(), tables(), desc, &slot), Status::Ok) << message();
+    // Only the shape counts: that of the default level, which these drafts don't have.
+    Tables* shape = nullptr;
+    if (solver_ == Solver::Moments) {
+      EXPECT_EQ(createTables(context(), preset("earth"), {}, &shape), Status::Ok) << message();
+    }
+    EXPECT_EQ(createView(context(), shape != nullptr ? shape : tables(), desc, &slot), Status::Ok)
+        << message();
+    destroyTables(shape);
   }
   return slot;
 }
@@ -225,6 +232,15 @@ View* SkyTest::slicedView(Projection projection) {
 void SkyTest::recordSlice(View* sliced, const Tables* with, const FrameState& draw) {
   run([&](VkCommandBuffer commands) {
     return testing::recordLuts(sliced, commands, with, draw) == Status::Ok;
+  });
+}
+
+void SkyTest::expectNeedsSlice(View* sliced, const Tables* with, const FrameState& draw) {
+  run([&](VkCommandBuffer commands) {
+    message().clear();
+    EXPECT_EQ(testing::recordSky(sliced, commands, with, draw), Status::InvalidArgument);
+    EXPECT_TRUE(hasAll(message(), "recordSky|sky-view LUT|recordLuts")) << message();
+    return true;
   });
 }
 

@@ -104,14 +104,17 @@ class SkyTest : public DeviceTest {
   View* view(Projection projection = Projection::Perspective);
   /// Of 32-bit floats, for the suite's solver.
   ViewDesc viewDesc() const;
+  /// For tables(), unless others are given; of 32-bit floats unless `desc` says otherwise.
   View* makeView(const ViewDesc& desc, Tables* with = nullptr);
-  /// Like view(), with a sky slice of the shape of tables(), but of the default level.
+  /// Like view(), with a sky-view LUT of the shape that tables() have, but of the default level.
   View* slicedView(Projection projection);
   void recordSlice(View* sliced, const Tables* with, const FrameState& draw);
+  /// recordSky is refused with a sentence, since the LUT holds something else.
+  void expectNeedsSlice(View* sliced, const Tables* with, const FrameState& draw);
   /// With view(projection), into a 32-bit float target of the viewport's size.
   Picture picture(const FrameState& draw, Projection projection = Projection::Perspective,
                   Tables* with = nullptr);
-  /// The same with another view; from the slice that was recorded last, if it serves.
+  /// The same with another view; one with a LUT needs recordSlice before.
   Picture picture(View* with, Tables* tables, const FrameState& draw);
   Picture picture(View* with, Tables* tables, const FrameState& draw, const TargetDesc& target);
   std::vector<ProbeAnswer> probeAll(const std::vector<ProbeQuery>& queries, Tables* with = nullptr);

@@ -10,30 +10,19 @@ constexpr VkExtent2D kExtent = {48, 32};
 
 class StandardSliceTest : public StandardSkyTest {
  protected:
-  SkyDraw drawAt(double altitude, double elevation, double pitch = 5.0) {
+  FrameState drawAt(double altitude, double elevation, double pitch = 5.0) {
     const Parameters earth = preset("earth");
-    const Camera camera = cameraFromGeodetic(earth, radians(20), radians(30), altitude, radians(80),
+    const EyeCamera camera = cameraFromGeodetic(earth, radians(20), radians(30), altitude, radians(80),
                                              radians(pitch), 0.0, radians(70));
     Vec sun;
     sunDirection(radians(20), radians(30), radians(elevation), radians(100), sun.data());
-    SkyDraw draw = makeDraw(camera, sun, kExtent);
+    FrameState draw = makeDraw(camera, sun, kExtent);
     draw.sun.discRadius = radians(0.2667);
     return draw;
   }
 
   View* sliceView(MieStorage mie = MieStorage::Full) {
-    ViewDesc desc;
-    desc.solver = Solver::Standard;
-    desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-    desc.mie = mie;
-    desc.skySlice = tables("earth", mie);
-    return makeView(desc);
-  }
-
-  void slice(View* view, const Tables* tables, const SkyDraw& draw) {
-    run([&](VkCommandBuffer commands) {
-      return recordSkySlice(view, commands, tables, draw) == Status::Ok;
-    });
+    return makeView({}, tables("earth", mie));
   }
 
   static void expectSame(const Picture& a, const Picture& b) {
@@ -55,16 +44,12 @@ TEST_F(StandardSliceTest, GivesThePictureOfTheTables) {
   target.extent = kExtent;
   for (MieStorage mie : {MieStorage::Full, MieStorage::Packed}) {
     Tables* with = tables("earth", mie);
-    ViewDesc plain;
-    plain.solver = Solver::Standard;
-    plain.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-    plain.mie = mie;
-    View* direct = makeView(plain);
+    View* direct = makeView(viewDesc(), with);
     View* sliced = sliceView(mie);
     for (double altitude : {0.0, 2.0, 9000.0, 59999.0, 60000.0}) {
       for (double elevation : {50.0, 3.0, -4.0}) {
-        const SkyDraw draw = drawAt(altitude, elevation);
-        slice(sliced, with, draw);
+        const FrameState draw = drawAt(altitude, elevation);
+        recordSlice(sliced, with, draw);
         expectSame(picture(sliced, with, draw, target), picture(direct, with, draw, target));
       }
     }
@@ -78,51 +63,51 @@ TEST_F(StandardSliceTest, IsNotReadForAnotherCameraSunOrTables) {
   Tables* mars = tables("mars");
   View* sliced = sliceView();
   View* direct = view();
-  const SkyDraw draw = drawAt(2.0, 20.0);
-  slice(sliced, earth, draw);
-  for (const SkyDraw& other : {drawAt(3000.0, 20.0), drawAt(2.0, 5.0), drawAt(4e5, 20.0, -30.0)})
-    expectSame(picture(sliced, earth, other, target), picture(direct, earth, other, target));
-  expectSame(picture(sliced, mars, draw, target), picture(direct, mars, draw, target));
+  const FrameState draw = drawAt(2.0, 20.0);
+  recordSlice(sliced, earth, draw);
+  for (const FrameState& other : {drawAt(3000.0, 20.0), drawAt(2.0, 5.0)})
+    expectNeedsSlice(sliced, earth, other);
+  expectNeedsSlice(sliced, mars, draw);
+  // Above the air there is none.
+  const FrameState space = drawAt(4e5, 20.0, -30.0);
+  expectSame(picture(sliced, earth, space, target), picture(direct, earth, space, target));
   // A turned head looks into the same slice.
-  const SkyDraw turned = drawAt(2.0, 20.0, -40.0);
+  const FrameState turned = drawAt(2.0, 20.0, -40.0);
   expectSame(picture(sliced, earth, turned, target), picture(direct, earth, turned, target));
 }
 
 TEST_F(StandardSliceTest, IsOneDispatchInsideAndNoneOutside) {
   View* sliced = sliceView();
   uint64_t before = dispatches();
-  slice(sliced, tables(), drawAt(2.0, 20.0));
+  recordSlice(sliced, tables(), drawAt(2.0, 20.0));
   EXPECT_EQ(dispatches(), before + 1);
   before = dispatches();
-  slice(sliced, tables(), drawAt(4e5, 20.0));
+  recordSlice(sliced, tables(), drawAt(4e5, 20.0));
   EXPECT_EQ(dispatches(), before);
 }
 
-TEST_F(StandardSliceTest, RefusesViewsAndTablesThatDoNotFit) {
+TEST_F(StandardSliceTest, RefusesTablesThatDoNotFit) {
   View* plain = view();
   View* sliced = sliceView();
-  const SkyDraw draw = drawAt(2.0, 20.0);
+  const FrameState draw = drawAt(2.0, 20.0);
   TableDesc other = smallTables();
   other.sizes.scatteringMu += 2;
   Tables* odd = nullptr;
   ASSERT_EQ(createTables(context(), preset("earth"), other, &odd), Status::Ok);
   bakeAll(device(), odd);
+  Tables* const packed = tables("earth", MieStorage::Packed);
+  const uint64_t before = dispatches();
   run([&](VkCommandBuffer commands) {
-    EXPECT_EQ(recordSkySlice(plain, commands, tables(), draw), Status::InvalidArgument);
-    EXPECT_NE(message().find("ViewDesc::skySlice"), std::string::npos) << message();
-    EXPECT_EQ(recordSkySlice(sliced, commands, odd, draw), Status::InvalidArgument);
-    EXPECT_NE(message().find("mu and"), std::string::npos) << message();
+    // A view without a LUT has nothing to record.
+    EXPECT_EQ(testing::recordLuts(plain, commands, tables(), draw), Status::Ok);
+    EXPECT_EQ(testing::recordLuts(sliced, commands, odd, draw), Status::InvalidArgument);
+    EXPECT_TRUE(hasAll(message(), "FrameDesc::tables|scatteringMu")) << message();
+    EXPECT_EQ(testing::recordLuts(sliced, commands, packed, draw), Status::InvalidArgument);
+    EXPECT_TRUE(hasAll(message(), "FrameDesc::tables|MieStorage")) << message();
     return true;
   });
+  EXPECT_EQ(dispatches(), before);
   destroyTables(odd);
-  ViewDesc desc;
-  desc.solver = Solver::Standard;
-  desc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-  desc.mie = MieStorage::Packed;
-  desc.skySlice = tables();
-  View* made = nullptr;
-  EXPECT_EQ(createView(context(), desc, &made), Status::InvalidArgument);
-  EXPECT_EQ(made, nullptr);
 }
 
 }  // namespace

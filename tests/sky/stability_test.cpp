@@ -28,11 +28,11 @@ TEST(AltitudeTest, SurvivesTheWayToTheGpu) {
   for (int i = 0; i < 500; ++i) {
     const double latitude = kPi * (i / 499.0 - 0.5), longitude = 2.4 * i;
     for (const double altitude : {-100.0, 0.0, 2.03, 59999.7, 3.6e7}) {
-      const SkyDraw draw =
+      const FrameState draw =
           makeDraw(cameraFromGeodetic(earth, latitude, longitude, altitude, 0.0, 0.0, 0.0, 1.0),
                    {0.0, 0.0, 1.0}, {8, 8});
       const double got =
-          static_cast<double>(sky::makeConstants(earth, ViewDesc{}, draw).upAltitude[3]);
+          static_cast<double>(sky::makeConstants(earth, PictureDesc{}, draw).upAltitude[3]);
       // Measured: 1e-9 m of the position's doubles, and the float's own 6e-8.
       EXPECT_NEAR(got, std::max(altitude, 0.0), std::max(1e-6, 1e-7 * altitude))
           << latitude << " " << longitude;
@@ -70,7 +70,7 @@ TEST_P(StabilityTest, EveryPictureIsFiniteAndNotNegative) {
     EXPECT_TRUE(altitudes[5] < altitudes[6] && altitudes[6] < altitudes[7]);
     for (const double altitude : altitudes) {
       for (const double elevation : {90.0, 30.0, 0.25, 0.0, -0.25, -6.0, -18.0, -90.0}) {
-        SkyDraw draw = makeDraw(
+        FrameState draw = makeDraw(
             cameraFromGeodetic(p, 0.0, 0.0, altitude, 0.0, radians(-90.0), 0.0, radians(360.0)),
             sunAt(radians(elevation), 0.4), {21, 21});
         draw.sun.discRadius = radians(0.27);
@@ -95,7 +95,7 @@ TEST_P(StabilityTest, ExactDirectionsAreFiniteAndContinuous) {
       for (const double pitch :
            {radians(90.0), radians(-90.0), 0.0, -dip, radians(elevation), radians(-elevation)}) {
         for (const double heading : {0.0, kPi}) {
-          SkyDraw draw = makeDraw(
+          FrameState draw = makeDraw(
               cameraFromGeodetic(earth, 0.0, 0.0, altitude, heading, pitch, 0.0, radians(0.05)),
               sunAt(radians(elevation), 0.0), {9, 9});
           draw.sun.discRadius = radians(0.27);
@@ -108,7 +108,7 @@ TEST_P(StabilityTest, ExactDirectionsAreFiniteAndContinuous) {
   // At the zenith and the nadir azimuth has no meaning: the pixel there is as its neighbours are.
   for (const double altitude : {0.0, 2.0, 3e4, 60000.0, 1e5}) {
     for (const double pitch : {radians(90.0), radians(-90.0)}) {
-      const SkyDraw draw =
+      const FrameState draw =
           makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, altitude, 0.0, pitch, 0.0, radians(0.5)),
                    sunAt(radians(40.0), 0.7), {9, 9});
       const Picture drawn = picture(draw);
@@ -169,7 +169,7 @@ TEST_P(StabilityTest, HorizonIsOneCleanLine) {
     for (const double fov : {radians(0.02), radians(0.5)}) {
       const double r = earth.bottomRadius_m + altitude;
       const double dip = horizonDip(earth, altitude);
-      SkyDraw draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, altitude, 0.0, -dip, 0.0, fov),
+      FrameState draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, altitude, 0.0, -dip, 0.0, fov),
                               sunAt(0.1 - dip, 0.0), {24, 64});
       const Picture without = picture(draw);
       draw.sun.discRadius = radians(60.0);

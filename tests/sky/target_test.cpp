@@ -7,10 +7,10 @@
 namespace alpenglow::testing {
 namespace {
 
-SkyDraw horizonDraw(const Parameters& parameters, VkExtent2D extent, double elevation = 20.0) {
+FrameState horizonDraw(const Parameters& parameters, VkExtent2D extent, double elevation = 20.0) {
   double sun[3];
   sunDirection(0.0, 0.0, radians(elevation), 0.3, sun);
-  SkyDraw draw = makeDraw(
+  FrameState draw = makeDraw(
       cameraFromGeodetic(parameters, 0.0, 0.0, 2.0, 0.0, radians(3.0), 0.0, 1.0), vec(sun), extent);
   draw.sun.discRadius = radians(2.0);
   return draw;
@@ -19,19 +19,19 @@ SkyDraw horizonDraw(const Parameters& parameters, VkExtent2D extent, double elev
 TEST_F(SkyTest, RenderPassesAndDynamicRenderingDrawTheSame) {
   const Parameters earth = preset("earth");
   TargetDesc desc;
-  const SkyDraw draw = horizonDraw(earth, desc.extent);
+  const FrameState draw = horizonDraw(earth, desc.extent);
   const Picture dynamic = picture(draw);
   for (const VkFormat depth : {VK_FORMAT_UNDEFINED, VK_FORMAT_D32_SFLOAT}) {
     desc.depth = depth;
     desc.renderPass = true;
     Target target(device(), desc);
-    ViewDesc viewDesc;
+    ViewDesc viewDesc = SkyTest::viewDesc();
     viewDesc.colorFormat = desc.color;
     viewDesc.depthFormat = depth;
     viewDesc.renderPass = target.renderPass();
     View* const made = makeView(viewDesc);
     const Picture drawn = target.draw([&](VkCommandBuffer commands) {
-      return recordSky(made, commands, tables(), draw) == Status::Ok;
+      return testing::recordSky(made, commands, tables(), draw) == Status::Ok;
     });
     EXPECT_EQ(drawn.data, dynamic.data) << message();
   }
@@ -45,9 +45,9 @@ TEST_F(SkyTest, NearerObjectsKeepTheirPixels) {
       TargetDesc desc;
       desc.depth = format;
       desc.clearDepth = reversed ? 0.0f : 1.0f;
-      const SkyDraw draw = horizonDraw(earth, desc.extent);
+      const FrameState draw = horizonDraw(earth, desc.extent);
       const Picture plain = picture(draw);
-      ViewDesc viewDesc;
+      ViewDesc viewDesc = SkyTest::viewDesc();
       viewDesc.depthFormat = format;
       viewDesc.depth = reversed ? DepthConvention::Reversed : DepthConvention::Standard;
       View* const made = makeView(viewDesc);
@@ -56,7 +56,7 @@ TEST_F(SkyTest, NearerObjectsKeepTheirPixels) {
       const float nearly = reversed ? 1e-4f : 1.0f - 1e-4f;  // Far away, but not at the far plane.
       const Picture drawn = target.draw([&](VkCommandBuffer commands) {
         target.fill(commands, object, 3.0f, nearly);
-        return recordSky(made, commands, tables(), draw) == Status::Ok;
+        return testing::recordSky(made, commands, tables(), draw) == Status::Ok;
       });
       for (uint32_t y = 0; y < drawn.height; ++y) {
         for (uint32_t x = 0; x < drawn.width; ++x) {
@@ -77,9 +77,9 @@ TEST_F(SkyTest, MultisampledTargetsHoldTheSamePicture) {
   desc.samples = VK_SAMPLE_COUNT_4_BIT;
   for (const VkFormat depth : {VK_FORMAT_UNDEFINED, VK_FORMAT_D32_SFLOAT}) {
     desc.depth = depth;
-    const SkyDraw draw = horizonDraw(earth, desc.extent);
+    const FrameState draw = horizonDraw(earth, desc.extent);
     const Picture plain = picture(draw);
-    ViewDesc viewDesc;
+    ViewDesc viewDesc = SkyTest::viewDesc();
     viewDesc.samples = desc.samples;
     viewDesc.depthFormat = depth;
     const Picture drawn = picture(makeView(viewDesc), tables(), draw, desc);
@@ -93,10 +93,10 @@ TEST_F(SkyTest, MultisampledTargetsHoldTheSamePicture) {
 // it doesn't.
 TEST_F(SkyTest, RadianceScaleSavesNightInHalfFloats) {
   const Parameters earth = preset("earth");
-  SkyDraw draw = horizonDraw(earth, {48, 32}, -11.0);
+  FrameState draw = horizonDraw(earth, {48, 32}, -11.0);
   draw.sun.discRadius = 0.0;
   const Picture floats = picture(draw);
-  ViewDesc viewDesc;
+  ViewDesc viewDesc = SkyTest::viewDesc();
   viewDesc.colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
   View* const halves = makeView(viewDesc);
   TargetDesc desc;

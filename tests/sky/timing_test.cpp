@@ -56,14 +56,22 @@ class TimingTest : public SkyTest {
     return best * 1e9 / (double(kExtent.width) * kExtent.height);
   }
 
-  double sliceCost(View* view, const Tables* tables, const SkyDraw& draw) {
-    return cost([&](VkCommandBuffer commands) {
-      return recordSkySlice(view, commands, tables, draw) == Status::Ok;
+  /// The slice is that of the draw afterwards.
+  double sliceCost(View* view, const Tables* tables, const FrameState& draw) {
+    // Nothing is recorded twice for the same draw.
+    FrameState draws[2] = {draw, draw};
+    for (double& x : draws[1].camera.position_m) x *= 1.0 + 1e-6;
+    size_t next = 0;
+    const double nanoseconds = cost([&](VkCommandBuffer commands) {
+      next = 1 - next;
+      return testing::recordLuts(view, commands, tables, draws[next]) == Status::Ok;
     });
+    recordSlice(view, tables, draw);
+    return nanoseconds;
   }
 
-  /// Of a frame: from the slice that was recorded last, if it is this draw's.
-  double frameCost(View* view, const Tables* tables, const SkyDraw& draw) {
+  /// Of a frame, from the slice that was recorded last, if the view has one.
+  double frameCost(View* view, const Tables* tables, const FrameState& draw) {
     return cost([&](VkCommandBuffer commands) {
       toAttachment(commands);
       VkRenderingAttachmentInfo color = {};
@@ -79,14 +87,14 @@ class TimingTest : public SkyTest {
       rendering.colorAttachmentCount = 1;
       rendering.pColorAttachments = &color;
       function<PFN_vkCmdBeginRendering>("vkCmdBeginRendering")(commands, &rendering);
-      const Status status = recordSky(view, commands, tables, draw);
+      const Status status = testing::recordSky(view, commands, tables, draw);
       function<PFN_vkCmdEndRendering>("vkCmdEndRendering")(commands);
       return status == Status::Ok;
     });
   }
 
   /// A view whose pixels are nothing but two fetches of the slice.
-  View* plainView(const ViewDesc& desc) {
+  View* plainView(const ViewDesc& desc, Tables* tables) {
     VkShaderModuleCreateInfo code = {};
     code.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
     code.codeSize = sizeof shaders::kTestPlainFetch;
@@ -95,7 +103,7 @@ class TimingTest : public SkyTest {
     EXPECT_EQ(function<PFN_vkCreateShaderModule>("vkCreateShaderModule")(device().device(), &code,
                                                                          nullptr, &module),
               VK_SUCCESS);
-    View* plain = makeView(desc);
+    View* plain = makeView(desc, tables);
     function<PFN_vkDestroyShaderModule>("vkDestroyShaderModule")(device().device(), module,
                                                                  nullptr);
     module = VK_NULL_HANDLE;
@@ -140,14 +148,13 @@ TEST_F(TimingTest, ASliceMakesAPixelOfSkyCheaper) {
     desc.mie = mie;
     Tables* tables = bakedTables(earth, desc);
     ViewDesc viewDesc;
-    viewDesc.solver = Solver::Standard;
     viewDesc.colorFormat = kFormat;
-    viewDesc.mie = mie;
-    viewDesc.skySlice = tables;
-    View* view = makeView(viewDesc);
-    const Camera up = cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(60), 0.0, radians(50));
-    const SkyDraw draw = makeDraw(up, unit({0.5, 0.7, 0.2}), kExtent);
-    const double direct = frameCost(view, tables, draw);
+    View* view = makeView(viewDesc, tables);
+    viewDesc.sky = SkyMethod::Integrate;
+    View* unsliced = makeView(viewDesc, tables);
+    const EyeCamera up = cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(60), 0.0, radians(50));
+    const FrameState draw = makeDraw(up, unit({0.5, 0.7, 0.2}), kExtent);
+    const double direct = frameCost(unsliced, tables, draw);
     sliceCost(view, tables, draw);
     const double sliced = frameCost(view, tables, draw);
     std::printf("standard, %s Mie: sky %.1f ns/pixel from the tables, %.1f from a slice\n",
@@ -169,11 +176,10 @@ TEST_F(TimingTest, APixelOfMomentsFromASlice) {
   Tables* tables = bakedTables(earth, {});
   ViewDesc desc;
   desc.colorFormat = kFormat;
-  desc.skySlice = tables;
-  View* view = makeView(desc);
-  View* plain = plainView(desc);
-  desc.skySlice = nullptr;
-  View* unsliced = makeView(desc);
+  View* view = makeView(desc, tables);
+  View* plain = plainView(desc, tables);
+  desc.sky = SkyMethod::Integrate;
+  View* unsliced = makeView(desc, tables);
   const Look looks[] = {
       {"2 m, sky only", 2.0, 60.0, 50.0, 0.0, true},
       {"2 m, sky and sun", 2.0, 60.0, 50.0, 0.27, false},
@@ -185,7 +191,7 @@ TEST_F(TimingTest, APixelOfMomentsFromASlice) {
   double sun[3];
   sunDirection(0.0, 0.0, radians(50.0), 0.2, sun);
   for (const Look& look : looks) {
-    SkyDraw draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, look.altitude, 0.2,
+    FrameState draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, look.altitude, 0.2,
                                                radians(look.pitch), 0.0, radians(look.fov)),
                             vec(sun), kExtent);
     draw.sun.discRadius = radians(look.discRadius);

@@ -18,20 +18,20 @@ using Pair = std::array<Picture, 2>;
 
 class TwilightTest : public SkyTest {
  protected:
-  static Camera camera(double altitude, double azimuth, double pitch, double roll, double fov) {
+  static EyeCamera camera(double altitude, double azimuth, double pitch, double roll, double fov) {
     return cameraFromGeodetic(preset("earth"), 0.3, 0.2, altitude, kSunAzimuth + azimuth, pitch,
                               roll, fov);
   }
 
-  static SkyDraw drawOf(const Camera& camera, double elevation, VkExtent2D extent) {
+  static FrameState drawOf(const EyeCamera& camera, double elevation, VkExtent2D extent) {
     double sun[3];
     sunDirection(0.3, 0.2, radians(elevation), kSunAzimuth, sun);
-    SkyDraw draw = makeDraw(camera, vec(sun), extent);
+    FrameState draw = makeDraw(camera, vec(sun), extent);
     draw.radianceScale = kExposure;
     return draw;
   }
 
-  Pair bothPictures(const SkyDraw& draw, Projection projection = Projection::Perspective) {
+  Pair bothPictures(const FrameState& draw, Projection projection = Projection::Perspective) {
     View* const sliced = slicedView(projection);
     recordSlice(sliced, tables(), draw);
     return {picture(draw, projection), picture(sliced, tables(), draw)};
@@ -80,7 +80,7 @@ TEST_F(TwilightTest, NoBlocksAndNoStepsAtExposure1e5) {
     for (const double elevation : {-6.0, -9.0, -12.0, -15.0, -18.0}) {
       Steps worst[2];
       const auto look = [&](double azimuth, double pitch, double roll, double horizon) {
-        const SkyDraw draw =
+        const FrameState draw =
             drawOf(camera(altitude, azimuth, pitch, roll, kFov), elevation, kColumn);
         const Pair pictures = bothPictures(draw);
         for (size_t i = 0; i < 2; ++i) {
@@ -112,7 +112,7 @@ TEST_F(TwilightTest, NoGlowStays) {
     double before[2] = {};
     std::printf("%7.0f m:", altitude);
     for (double elevation = -6.0; elevation >= -34.0; elevation -= 1.0) {
-      const SkyDraw draw =
+      const FrameState draw =
           drawOf(camera(altitude, 0.0, radians(90.0), 0.0, 2.0 * kPi), elevation, {48, 48});
       const Pair pictures = bothPictures(draw, Projection::Fisheye);
       for (size_t i = 0; i < 2; ++i) {

@@ -11,7 +11,7 @@ namespace {
 
 /// Does any pixel of an area see the air, the ground or the disc? By every `stride`th pixel's
 /// direction, in double.
-sky::Visible bruteForce(const Parameters& parameters, const ViewDesc& desc, const SkyDraw& draw,
+sky::Visible bruteForce(const Parameters& parameters, const PictureDesc& desc, const FrameState& draw,
                         const VkRect2D& area, uint32_t stride = 1) {
   sky::Visible seen = {false, false, false};
   const Vec position = vec(draw.camera.position_m), sun = vec(draw.sun.direction);
@@ -51,16 +51,16 @@ class RandomDraws {
 
   double uniform() { return uniform_(random_); }
 
-  SkyDraw draw(Projection projection, uint32_t most) {
+  FrameState draw(Projection projection, uint32_t most) {
     const double mostFov = projection == Projection::Perspective ? radians(175.0) : 2.0 * kPi;
     const double altitude = uniform() < 0.2 ? 0.0 : std::pow(10.0, 8.0 * uniform());
     const VkExtent2D extent = {1 + static_cast<uint32_t>((most - 1) * uniform()),
                                1 + static_cast<uint32_t>((most - 1) * uniform())};
     const double fov = std::min(mostFov * std::pow(uniform(), 2.0) + 1e-3, mostFov);
-    const Camera camera =
+    const EyeCamera camera =
         cameraFromGeodetic(parameters_, kPi * (uniform() - 0.5), 6.0 * uniform(), altitude,
                            6.0 * uniform(), kPi * (uniform() - 0.5), 6.0 * uniform(), fov);
-    SkyDraw draw = makeDraw(camera, direction(), extent);
+    FrameState draw = makeDraw(camera, direction(), extent);
     draw.sun.discRadius = uniform() < 0.1 ? 0.0 : std::pow(10.0, -5.0 * uniform());
     return draw;
   }
@@ -97,9 +97,9 @@ TEST(VisibleTest, IsConservativeAndUseful) {
   RandomDraws random(earth);
   int unseen[3] = {}, culled[3] = {};
   for (int i = 0; i < 6000; ++i) {
-    ViewDesc desc;
+    PictureDesc desc;
     desc.projection = projectionOf(i);
-    const SkyDraw draw = random.draw(desc.projection, 24);
+    const FrameState draw = random.draw(desc.projection, 24);
     const VkRect2D area = random.part(draw.viewport.extent);
     const sky::Visible seen = bruteForce(earth, desc, draw, area);
     const sky::Visible said = sky::visible(earth, desc, draw, area);
@@ -126,9 +126,9 @@ TEST(VisibleTest, PartsAreTheViewport) {
   RandomDraws random(earth);
   uint32_t mostParts = 0;
   for (int i = 0; i < 300; ++i) {
-    ViewDesc desc;
+    PictureDesc desc;
     desc.projection = projectionOf(i);
-    const SkyDraw draw = random.draw(desc.projection, 400);
+    const FrameState draw = random.draw(desc.projection, 400);
     const VkExtent2D whole = draw.viewport.extent;
     const sky::Parts parts = sky::cut(earth, desc, draw);
     mostParts = std::max(mostParts, parts.count);
@@ -151,10 +151,10 @@ TEST(VisibleTest, PartsAreTheViewport) {
 TEST(VisibleTest, PartsAreFew) {
   Parameters earth;
   ASSERT_EQ(findPreset("earth", &earth, {}), Status::Ok);
-  const SkyDraw draw =
+  const FrameState draw =
       makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(5.0), 0.0, radians(60.0)),
                unit({1.0, 1.0, 1.0}), {1024, 768});
-  const sky::Parts parts = sky::cut(earth, ViewDesc{}, draw);
+  const sky::Parts parts = sky::cut(earth, PictureDesc{}, draw);
   ASSERT_EQ(parts.count, 2u);
   EXPECT_EQ(parts.parts[0].visible, (sky::Visible{true, false, false}));
   EXPECT_EQ(parts.parts[1].visible, (sky::Visible{true, true, false}));
@@ -174,6 +174,8 @@ TEST_P(VariantTest, VariantsDrawWhatTheFullOneDraws) {
   for (const Projection projection : {Projection::Perspective, Projection::Fisheye}) {
     ViewDesc desc = viewDesc();
     desc.projection = projection;
+    PictureDesc pictureDesc;
+    pictureDesc.projection = projection;
     vulkan().forcedConstants = {{2, VK_TRUE}, {3, VK_TRUE}, {5, VK_TRUE}};
     View* const full = makeView(desc);
     vulkan().forcedConstants.clear();
@@ -182,11 +184,11 @@ TEST_P(VariantTest, VariantsDrawWhatTheFullOneDraws) {
     int variants[sky::kVariants] = {};
     for (const double altitude : {0.0, 1e4, 1e5, 1e7}) {
       for (double pitch = -90.0; pitch <= 90.0; pitch += 20.0) {
-        SkyDraw draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, altitude, 0.3, radians(pitch),
+        FrameState draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, altitude, 0.3, radians(pitch),
                                                    radians(30.0), radians(60.0)),
                                 vec(sun), target.extent);
         draw.sun.discRadius = radians(1.0);
-        const sky::Parts parts = sky::cut(earth, desc, draw);
+        const sky::Parts parts = sky::cut(earth, pictureDesc, draw);
         for (uint32_t i = 0; i < parts.count; ++i) ++variants[sky::variant(parts.parts[i].visible)];
         const Picture culled = picture(view(projection), tables(), draw, target);
         const Picture whole = picture(full, tables(), draw, target);

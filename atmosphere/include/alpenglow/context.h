@@ -83,7 +83,7 @@ ALPENGLOW_API Status createContext(const ContextDesc& desc, Context** out);
 
 /// The device must have finished with everything of the context. Tables and views that are alive are
 /// destroyed, too: they must not be used afterwards. Null is ignored, as by every destroy function.
-void destroyContext(Context* context);
+ALPENGLOW_API void destroyContext(Context* context);
 
 /// States the frame numbers of all other calls; once a frame, before anything of the frame is
 /// recorded or destroyed. `submitting` is the frame being recorded (from 1), `completed` the newest
@@ -91,13 +91,14 @@ void destroyContext(Context* context);
 /// submitting; else InvalidArgument with a sentence, and the numbers stay. What a destroy function
 /// marks in frame n is freed by the first advanceFrame whose `completed` is at least n. Without any
 /// call the frame is 1. A host that waits for each frame passes (n + 1, n).
-Status advanceFrame(Context* context, uint64_t submitting, uint64_t completed);
+ALPENGLOW_API Status advanceFrame(Context* context, uint64_t submitting,
+                                  uint64_t completed);
 
 /// The commands recorded in `frame` (above the completed one) will never execute, for example since
 /// the swapchain was lost: call it before the next frame is recorded. LUTs, shadow maps, uploads and
 /// bake slices of that frame count as not recorded. A bake continues before that frame's first
 /// slice; from the start if slices of later frames were recorded.
-Status abandonFrame(Context* context, uint64_t frame);
+ALPENGLOW_API Status abandonFrame(Context* context, uint64_t frame);
 
 /// What the context holds now; for reports and tests. Counters only ever rise, except `bytes`,
 /// `images` and `buffers`, which are what is alive.

@@ -2,6 +2,8 @@
 // for; a host may too.
 #pragma once
 
+#include <alpenglow/export.h>
+
 #include <cstdint>
 
 namespace alpenglow {
@@ -28,12 +30,12 @@ inline constexpr uint32_t kEffectCount = 13;
 using EffectFlags = uint32_t;
 constexpr EffectFlags effectBit(Effect effect) { return 1u << static_cast<uint32_t>(effect); }
 
-/// Those that tables hold: TableDesc::without.
+/// Those that tables hold: TableDesc::disabledEffects.
 inline constexpr EffectFlags kTableEffects =
     effectBit(Effect::Rayleigh) | effectBit(Effect::Mie) | effectBit(Effect::Absorption) |
     effectBit(Effect::MultipleScattering) | effectBit(Effect::GroundReflection) |
     effectBit(Effect::GroundIrradiance);
-/// Those that only views draw: ViewDesc::without has these besides.
+/// Those that only views draw: ViewDesc::disabledEffects has these besides.
 inline constexpr EffectFlags kViewEffects =
     effectBit(Effect::Ground) | effectBit(Effect::SunDisc) | effectBit(Effect::SpaceViews);
 
@@ -42,7 +44,7 @@ constexpr bool hasEffect(EffectFlags without, Effect effect) {
 }
 
 /// As files spell it: "ground_irradiance". Never null; "" past the end.
-const char* effectName(Effect effect);
+ALPENGLOW_API const char* effectName(Effect effect);
 
 }  // namespace v1
 }  // namespace alpenglow
