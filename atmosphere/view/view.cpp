@@ -18,6 +18,7 @@ sky::ShaftSet shaftSetOf(const shafts::LightShaftPass& pass) {
           static_cast<float>(desc.multipleLoss)};
 }
 
+/// As this frame's record functions leave it, which the host calls after it has this.
 ImageInfo infoOf(const engine::Image& image) {
   ImageInfo info;
   info.name = image.name;
@@ -26,7 +27,7 @@ ImageInfo infoOf(const engine::Image& image) {
   info.format = image.desc.format;
   info.extent = image.desc.extent;
   info.bytes = image.bytes;
-  info.layout = image.state.layout;
+  info.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
   info.stage = image.writeStage;
   info.access = image.writeAccess;
   return info;
