@@ -90,6 +90,9 @@ TEST_F(ShaftErrorsTest, BadDescriptionsAreRefusedWithTheValue) {
       {"listLength|version", kNot, [](ViewDesc&, LightShaftDesc& s) { s.listLength = 8; }},
       {"hostPipelines|version", kNot, [](ViewDesc&, LightShaftDesc& s) { s.hostPipelines = true; }},
   };
+  Tables* standard = nullptr;
+  ASSERT_EQ(createTables(context(), preset("earth"), smallTables(), &standard), Status::Ok);
+  finishFrames(context());
   ResourceReport start, end;
   resourceReport(context(), &start);
   for (const Case& bad : cases) {
@@ -97,12 +100,9 @@ TEST_F(ShaftErrorsTest, BadDescriptionsAreRefusedWithTheValue) {
     bad.spoil(desc, desc.lightShafts);
     expectViewRefused(baked, desc, bad.status, bad.parts);
   }
-  Tables* standard = nullptr;
-  ASSERT_EQ(createTables(context(), preset("earth"), smallTables(), &standard), Status::Ok);
   expectViewRefused(standard, goodDesc(), kBad, "lightShafts|Solver::Standard");
-  destroyTables(standard);
-  finishFrames(context());
   resourceReport(context(), &end);
+  destroyTables(standard);
   EXPECT_EQ(end.pipelines, start.pipelines);
   EXPECT_EQ(end.images, start.images);
   EXPECT_EQ(end.bytes, start.bytes);

@@ -187,14 +187,17 @@ TEST_F(ShaftFramesTest, AViewSurvivesOtherExtents) {
       finishFrames(context());
       ResourceReport now;
       resourceReport(context(), &now);
-      if (i >= 4) EXPECT_EQ(now.images, images[size]) << "Old targets stay.";
+      if (i >= 4) {
+        EXPECT_EQ(now.images, images[size]) << "Old targets stay.";
+      }
       images[size] = now.images;
     }
     FrameWork work;
     ASSERT_EQ(beginFrame(view, frameOf(rigOf(setup_, kSizes[0]), states[0]), &work), Status::Ok);
     EXPECT_EQ(work.images[kViewSceneDepth].extent.width, kSizes[0].width);
-    if (method != LightShaftMethod::RayMarch)
+    if (method != LightShaftMethod::RayMarch) {
       EXPECT_EQ(work.images[kViewLightShafts].extent.height, kSizes[0].height);
+    }
     destroyView(view);
   }
 }
