@@ -12,8 +12,7 @@ inline constexpr VkFormat kSunMapFormat = VK_FORMAT_D32_SFLOAT;
 /// Owned by Shafts; externally synchronised.
 class SunMap {
  public:
-  explicit SunMap(bake::Resources& resources)
-      : resources_(resources), device_(resources.device()) {}
+  explicit SunMap(bake::Resources& resources) : device_(resources.device()) {}
   Status make(const ShaftsDesc& desc);
   void destroy(const FrameInfo& frame);
 
@@ -29,7 +28,6 @@ class SunMap {
   Status makeImage();
   Status makePipeline(const ShaftsDesc& desc);
 
-  bake::Resources& resources_;
   engine::Device& device_;
   uint32_t size_ = 0;
   SunMapPlace place_;

@@ -33,9 +33,10 @@ struct Requirements {
 /// Fills `out` with what `wanted` needs, and checks that `physicalDevice` has it. When it has not,
 /// returns Unsupported and reports a sentence naming every gap to `diagnostic` (may be null).
 /// Thread-safe.
-Status queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance,
-                         VkPhysicalDevice physicalDevice, CapabilityFlags wanted, Requirements* out,
-                         DiagnosticFn diagnostic, void* user);
+ALPENGLOW_API Status queryRequirements(PFN_vkGetInstanceProcAddr getInstanceProcAddr,
+                                       VkInstance instance, VkPhysicalDevice physicalDevice,
+                                       CapabilityFlags wanted, Requirements* out,
+                                       DiagnosticFn diagnostic, void* user);
 
 /// Lets a host put SPIR-V of its own in place of a shader of ours: docs/shaders.md.
 struct ShaderHook {
@@ -71,15 +72,15 @@ struct ContextDesc {
 
 /// Makes a context. Its functions are thread-safe; objects made on it (tables, views) are
 /// externally synchronised, and different ones may be recorded in parallel.
-Status createContext(const ContextDesc& desc, Context** out);
+ALPENGLOW_API Status createContext(const ContextDesc& desc, Context** out);
 
 /// Destroys the context and what still waits for a frame. The host guarantees that the GPU is done
 /// with it. Tables and views left alive are reported through the diagnostic callback, how many of
 /// each, and are lost: they must not be destroyed afterwards.
-void destroyContext(Context* context);
+ALPENGLOW_API void destroyContext(Context* context);
 
 /// Destroys what frames up to `completed` used and destroyed objects left behind.
-void collect(Context* context, uint64_t completed);
+ALPENGLOW_API void collect(Context* context, uint64_t completed);
 
 /// What the context holds now; for reports and tests. Counters only ever rise, except `bytes`,
 /// `images` and `buffers`, which are what is alive.
@@ -93,7 +94,7 @@ struct ResourceReport {
   uint64_t dispatches = 0;
   uint64_t draws = 0;
 };
-void resourceReport(const Context* context, ResourceReport* out);
+ALPENGLOW_API void resourceReport(const Context* context, ResourceReport* out);
 
 }  // namespace v1
 }  // namespace alpenglow

@@ -2,6 +2,8 @@
 // for; a host may too.
 #pragma once
 
+#include <alpenglow/export.h>
+
 #include <cstdint>
 
 namespace alpenglow {
@@ -42,7 +44,7 @@ constexpr bool hasEffect(EffectFlags without, Effect effect) {
 }
 
 /// As files spell it: "ground_irradiance". Never null; "" past the end.
-const char* effectName(Effect effect);
+ALPENGLOW_API const char* effectName(Effect effect);
 
 }  // namespace v1
 }  // namespace alpenglow

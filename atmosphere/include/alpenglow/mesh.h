@@ -60,8 +60,8 @@ struct AdjacencyReport {
 /// and a position that is not finite, OutOfHostMemory where some 70 bytes a triangle can't be had;
 /// a sentence goes to `diagnostic` (may be null), and nothing is written then. Takes
 /// O(n log n). Thread-safe.
-Status buildAdjacency(const MeshView& mesh, uint32_t* adjacency, AdjacencyReport* report,
-                      DiagnosticFn diagnostic, void* user);
+ALPENGLOW_API Status buildAdjacency(const MeshView& mesh, uint32_t* adjacency,
+                                    AdjacencyReport* report, DiagnosticFn diagnostic, void* user);
 
 }  // namespace v1
 }  // namespace alpenglow

@@ -58,19 +58,19 @@ struct Parameters {
 };
 
 /// Number of presets, and the name and source of each (static strings; null past the end).
-uint32_t presetCount();
-const char* presetName(uint32_t index);
-const char* presetSource(uint32_t index);
+ALPENGLOW_API uint32_t presetCount();
+ALPENGLOW_API const char* presetName(uint32_t index);
+ALPENGLOW_API const char* presetSource(uint32_t index);
 /// A line for lists: what the preset is.
-const char* presetDescription(uint32_t index);
+ALPENGLOW_API const char* presetDescription(uint32_t index);
 
 /// Fills `out` with the preset called `name`. InvalidArgument when no preset has this name.
-Status findPreset(const char* name, Parameters* out);
+ALPENGLOW_API Status findPreset(const char* name, Parameters* out);
 
 /// Checks every field. When one is wrong, returns InvalidArgument and writes to `message` (of
 /// `messageSize` bytes, may be 0) one sentence that names the field as atmosphere files spell it,
 /// the value given and what is allowed. Thread-safe.
-Status validate(const Parameters& parameters, char* message, size_t messageSize);
+ALPENGLOW_API Status validate(const Parameters& parameters, char* message, size_t messageSize);
 
 }  // namespace v1
 }  // namespace alpenglow

@@ -105,16 +105,17 @@ struct Plan {
 /// Solver::Moments profits, others have their effects planned but for those of tables. On
 /// InvalidArgument `message` (of `messageSize` bytes, may be 0) is a sentence that names the wrong
 /// field, and `out` is as it was.
-Status makePlan(const Parameters& parameters, const Needs& needs, const TableDesc& base, Plan* out,
-                char* message, size_t messageSize);
+ALPENGLOW_API Status makePlan(const Parameters& parameters, const Needs& needs,
+                              const TableDesc& base, Plan* out, char* message, size_t messageSize);
 
 /// What a draw may see of sky, ground, space and the sun's disc: conservative, as recordSky finds
 /// it. Terrain is the host's to add.
-SeenFlags seenBy(const Parameters& parameters, Projection projection, const SkyDraw& draw);
+ALPENGLOW_API SeenFlags seenBy(const Parameters& parameters, Projection projection,
+                               const SkyDraw& draw);
 
 /// Fills what a plan decides of a view: solver, mie, without, alwaysSliced. The host adds its
 /// formats, skySlice if Plan::skySlice, sceneDepth and shafts.
-void describeView(const Plan& plan, ViewDesc* view);
+ALPENGLOW_API void describeView(const Plan& plan, ViewDesc* view);
 
 /// What must be made anew when needs change: until it is ready, the old serves on.
 struct PlanChange {
@@ -125,10 +126,11 @@ struct PlanChange {
 };
 /// Whether a plan in use serves other needs, and if not, what the plan for them makes anew. Nothing
 /// while altitude, sun and what is seen stay in the plan's ranges.
-PlanChange comparePlans(const Plan& current, const Plan& next);
+ALPENGLOW_API PlanChange comparePlans(const Plan& current, const Plan& next);
 /// As comparePlans, but only whether `current` covers `needs`; false with a sentence of what it
 /// lacks.
-bool planServes(const Plan& plan, const Needs& needs, char* reason, size_t reasonSize);
+ALPENGLOW_API bool planServes(const Plan& plan, const Needs& needs, char* reason,
+                              size_t reasonSize);
 
 }  // namespace v1
 }  // namespace alpenglow

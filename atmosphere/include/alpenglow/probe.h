@@ -32,13 +32,13 @@ inline constexpr VkDeviceSize kProbeAnswerBytes = 64;
 /// Records the evaluation of `count` queries; the raw answers go to `buffer` (usage STORAGE and
 /// host-visible or copied by the host), kProbeAnswerBytes each, from offset 0, and are made visible
 /// to host reads. Geometry is taken in double on the CPU, now. `tables` must be ready.
-Status recordProbe(Context* context, const Tables* tables, VkCommandBuffer commands,
-                   const FrameInfo& frame, const ProbeQuery* queries, uint32_t count,
-                   VkBuffer buffer);
+ALPENGLOW_API Status recordProbe(Context* context, const Tables* tables, VkCommandBuffer commands,
+                                 const FrameInfo& frame, const ProbeQuery* queries, uint32_t count,
+                                 VkBuffer buffer);
 
 /// Turns the raw answers of recordProbe, read back after the GPU finished, into plain ones.
-Status readProbe(const Tables* tables, const ProbeQuery* queries, uint32_t count, const void* raw,
-                 ProbeAnswer* answers);
+ALPENGLOW_API Status readProbe(const Tables* tables, const ProbeQuery* queries, uint32_t count,
+                               const void* raw, ProbeAnswer* answers);
 
 }  // namespace v1
 }  // namespace alpenglow

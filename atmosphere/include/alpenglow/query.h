@@ -26,8 +26,8 @@ struct TableReadbacks {
 /// while a copy that is needed is null; Unsupported for tables of Solver::Standard. On failure no
 /// answer is written. Nothing shared is written to: any number of threads may ask the same tables
 /// while no other call changes them.
-Status answerQueries(const Tables* tables, const TableReadbacks& copies, const ProbeQuery* queries,
-                     uint32_t count, ProbeAnswer* answers);
+ALPENGLOW_API Status answerQueries(const Tables* tables, const TableReadbacks& copies,
+                                   const ProbeQuery* queries, uint32_t count, ProbeAnswer* answers);
 
 }  // namespace v1
 }  // namespace alpenglow

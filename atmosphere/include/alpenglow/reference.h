@@ -19,8 +19,8 @@ struct ReferenceAnswer {
 
 /// Order 1 (single scattering, and the ground under direct sun), with a relative error of about
 /// 1e-8. Irradiance `sky` is 0: it needs at least one event before the surface.
-Status referenceSingleScattering(const Parameters& parameters, const ProbeQuery& query,
-                                 ReferenceAnswer* out);
+ALPENGLOW_API Status referenceSingleScattering(const Parameters& parameters,
+                                               const ProbeQuery& query, ReferenceAnswer* out);
 
 /// Runs body(context, i) for each i below `count`, in any order, on any threads, and returns when
 /// all have finished.
@@ -46,22 +46,22 @@ struct ReferenceOptions {
 /// What the path tracer prepares once for an atmosphere (tables of optical depth). Immutable, so
 /// that threads may share it.
 class Reference;
-Status createReference(const Parameters& parameters, Reference** out);
-void destroyReference(Reference* reference);  ///< Null is fine.
+ALPENGLOW_API Status createReference(const Parameters& parameters, Reference** out);
+ALPENGLOW_API void destroyReference(Reference* reference);  ///< Null is fine.
 
 /// The truth for one query: order 1 as referenceSingleScattering has it, the other orders by path
 /// tracing. InvalidArgument for a query that the probe file would refuse.
-Status evaluateReference(const Reference* reference, const ProbeQuery& query,
-                         const ReferenceOptions& options, ReferenceAnswer* out);
+ALPENGLOW_API Status evaluateReference(const Reference* reference, const ProbeQuery& query,
+                                       const ReferenceOptions& options, ReferenceAnswer* out);
 
 /// The same for a single query, with all preparations.
-Status evaluateReference(const Parameters& parameters, const ProbeQuery& query,
-                         const ReferenceOptions& options, ReferenceAnswer* out);
+ALPENGLOW_API Status evaluateReference(const Parameters& parameters, const ProbeQuery& query,
+                                       const ReferenceOptions& options, ReferenceAnswer* out);
 
 /// The sun's elevation (radians) by which the error of a query is judged: that at the ray's ground
 /// hit if it looks from above the top, at its lowest point for rays from there past the planet,
 /// else at the observer. 0 for a query that would be refused.
-double bandSunElevation(const Parameters& parameters, const ProbeQuery& query);
+ALPENGLOW_API double bandSunElevation(const Parameters& parameters, const ProbeQuery& query);
 
 }  // namespace v1
 }  // namespace alpenglow

@@ -47,7 +47,8 @@ struct CasterPass;
 /// Places what the next draws of this pass draw: local position p lies at origin_m + rotation p,
 /// in the planet's frame. `rotation`: three rows, of determinant above 0 (a scale is welcome);
 /// null: none.
-void placeCaster(const CasterPass* pass, const double origin_m[3], const float rotation[9]);
+ALPENGLOW_API void placeCaster(const CasterPass* pass, const double origin_m[3],
+                               const float rotation[9]);
 
 /// For each of its casters calls placeCaster, then binds its vertices (binding 0, with stride and
 /// offset of ShaftsDesc) and indices and draws. Called inside recordSunMap and, with Paper,
@@ -61,29 +62,30 @@ struct Casters {
 };
 
 /// Checks the description and makes targets and pipelines; nothing of a method that isn't chosen.
-Status createShafts(Context* context, const ShaftsDesc& desc, Shafts** out);
+ALPENGLOW_API Status createShafts(Context* context, const ShaftsDesc& desc, Shafts** out);
 /// Frees them once `frame.completed` of a later call reaches `frame.submitting`; after their views.
-void destroyShafts(Shafts* shafts, const FrameInfo& frame);
+ALPENGLOW_API void destroyShafts(Shafts* shafts, const FrameInfo& frame);
 
 /// Records, outside any rendering scope, the map from the sun: one draw of the casters. Needed when
 /// the sun or a caster has moved; else the last one serves. Exact and March. Clobbers: pipelines,
 /// sets 0 to 2, push constants, viewport, scissor.
-Status recordSunMap(Shafts* shafts, VkCommandBuffer commands, const FrameInfo& frame,
-                    const double sunDirection[3], const Casters& casters);
+ALPENGLOW_API Status recordSunMap(Shafts* shafts, VkCommandBuffer commands, const FrameInfo& frame,
+                                  const double sunDirection[3], const Casters& casters);
 
 /// Records, outside any rendering scope, the shadows of this draw's camera, after the host's scene
 /// has been drawn into the depth image: the view's recordSky and recordAir of the same draw then
 /// read them. Exact and March: after recordSunMap for the same sun, to the last bit. Exact looks
 /// light up if the view has recorded a sky slice for this draw, else it integrates. Clobbers as
 /// recordSunMap.
-Status recordShafts(Shafts* shafts, View* view, VkCommandBuffer commands, const FrameInfo& frame,
-                    const Tables* tables, const SkyDraw& draw, const Casters& casters);
+ALPENGLOW_API Status recordShafts(Shafts* shafts, View* view, VkCommandBuffer commands,
+                                  const FrameInfo& frame, const Tables* tables, const SkyDraw& draw,
+                                  const Casters& casters);
 
 /// Binding table of shaftSet, for the host's own fragment shaders that include
 /// alpenglow/shafts.glsl: alpenglowSunlit() tells whether the surface in a pixel sees the sun.
 /// Filled by recordShafts.
-VkDescriptorSetLayout shaftSetLayout(const Shafts* shafts);
-VkDescriptorSet shaftSet(const Shafts* shafts);
+ALPENGLOW_API VkDescriptorSetLayout shaftSetLayout(const Shafts* shafts);
+ALPENGLOW_API VkDescriptorSet shaftSet(const Shafts* shafts);
 
 }  // namespace v1
 }  // namespace alpenglow

@@ -36,11 +36,11 @@ struct TableSizes {
   uint32_t irradianceMuS = 0, irradianceR = 0;
   uint32_t scatteringR = 0, scatteringMu = 0, scatteringMuS = 0, scatteringNu = 0;
 };
-TableSizes defaultTableSizes();
+ALPENGLOW_API TableSizes defaultTableSizes();
 
 /// Where a simpler model is undefined or leaves something out: a sentence, static; "" for the
 /// solvers that have no such place.
-const char* modelLimit(Solver solver);
+ALPENGLOW_API const char* modelLimit(Solver solver);
 
 /// Resolution of the moment solver. 0 means what momentSettings() says.
 struct MomentSettings {
@@ -85,19 +85,19 @@ struct TableDesc {
 
 /// The settings that a quality level has for an atmosphere, by the rule of docs/accuracy.md, with
 /// what `custom` gives in place of it. Pure; thread-safe.
-MomentSettings momentSettings(const Parameters& parameters, Quality quality,
-                              const MomentSettings& custom);
+ALPENGLOW_API MomentSettings momentSettings(const Parameters& parameters, Quality quality,
+                                            const MomentSettings& custom);
 
 /// Checks parameters and sizes, allocates, and records nothing. The tables are then Ok to bake or
 /// to upload; on a context without kCapabilityBake only to upload, and they take no scratch memory.
 /// Those of the simpler models are only baked: they have no TableId.
 /// `tables` is destroyed with destroyTables, before its context.
-Status createTables(Context* context, const Parameters& parameters, const TableDesc& desc,
-                    Tables** out);
+ALPENGLOW_API Status createTables(Context* context, const Parameters& parameters,
+                                  const TableDesc& desc, Tables** out);
 
 /// Frees the tables once `frame.completed` of a later call reaches `frame.submitting`. Also cancels
 /// a bake. Null is ignored.
-void destroyTables(Tables* tables, const FrameInfo& frame);
+ALPENGLOW_API void destroyTables(Tables* tables, const FrameInfo& frame);
 
 /// One pass of the bake.
 struct BakeProgress {
@@ -118,8 +118,8 @@ struct BakeProgress {
 /// commands must execute in order on one queue. The finished tables are the same, byte for byte,
 /// however the bake is sliced. Leaves no state bound but the compute pipeline, set 0 and push
 /// constants. Scratch tables are freed when the frame of the last call completes.
-Status recordBake(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame, uint64_t budget,
-                  BakeProgress* progress);
+ALPENGLOW_API Status recordBake(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame,
+                                uint64_t budget, BakeProgress* progress);
 
 enum class TableId : uint32_t {
   OpticalDepth,  ///< ln(1 + 1e5 tau), T = exp(-tau) towards the top: x mu, y r. Either solver; of
@@ -149,23 +149,24 @@ struct TableInfo {
   uint64_t bytes = 0;  ///< Of a tightly packed copy.
 };
 /// Unsupported for a table that this description doesn't have.
-Status tableInfo(const Tables* tables, TableId id, TableInfo* out);
+ALPENGLOW_API Status tableInfo(const Tables* tables, TableId id, TableInfo* out);
 
 /// Records a copy into `buffer` (usage TRANSFER_DST), tightly packed from `offset` (a multiple of
 /// 16). Legal when the table is finished: T, E, S and the single Mie once the bake is done; those
 /// of an order, with TableDesc::keepOrders, right after the pass that finished them ("dS n"),
 /// before the next recordBake. The copy is made visible to the host's reads. NotReady otherwise.
-Status recordTableReadback(Tables* tables, VkCommandBuffer commands, TableId id, VkBuffer buffer,
-                           VkDeviceSize offset);
+ALPENGLOW_API Status recordTableReadback(Tables* tables, VkCommandBuffer commands, TableId id,
+                                         VkBuffer buffer, VkDeviceSize offset);
 
 /// Records the filling of OpticalDepth, Irradiance, Scattering or SingleMie from `buffer` (usage
 /// TRANSFER_SRC), laid out as a readback leaves it. When all of them are uploaded, the tables are
 /// ready, without a bake. The host checks that the data are for these parameters.
-Status recordTableUpload(Tables* tables, VkCommandBuffer commands, const FrameInfo& frame,
-                         TableId id, VkBuffer buffer, VkDeviceSize offset);
+ALPENGLOW_API Status recordTableUpload(Tables* tables, VkCommandBuffer commands,
+                                       const FrameInfo& frame, TableId id, VkBuffer buffer,
+                                       VkDeviceSize offset);
 
 /// True when the tables are baked or uploaded, so that views and probes may use them.
-bool tablesReady(const Tables* tables);
+ALPENGLOW_API bool tablesReady(const Tables* tables);
 
 /// The descriptor set that alpenglow/atmosphere.glsl binds: 0 uniform parameters, then of the
 /// moment solver 1 optical depth, 2 moments, 3 and 4 source; of the standard one 1 T, 2 E, 3 S, 4
@@ -174,8 +175,8 @@ bool tablesReady(const Tables* tables);
 /// declare it (ALPENGLOW_WITHOUT_SOURCE and ALPENGLOW_WITHOUT_MULTIPLE of
 /// alpenglow/atmosphere.glsl). For compute and fragment stages. The images are in
 /// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL once ready. Owned by the context and the tables.
-VkDescriptorSetLayout tableSetLayout(const Context* context);
-VkDescriptorSet tableSet(const Tables* tables);
+ALPENGLOW_API VkDescriptorSetLayout tableSetLayout(const Context* context);
+ALPENGLOW_API VkDescriptorSet tableSet(const Tables* tables);
 
 }  // namespace v1
 }  // namespace alpenglow

@@ -2,6 +2,8 @@
 // plain arrays into plain arrays that the host allocates; nothing here needs Vulkan.
 #pragma once
 
+#include <alpenglow/export.h>
+
 #include <alpenglow/mesh.h>
 
 namespace alpenglow {
@@ -59,7 +61,8 @@ struct TerrainPlace {
 };
 
 /// Checks everything but the heights, and says how large the mesh will be.
-Status terrainSize(const TerrainDesc& desc, TerrainSize* out, DiagnosticFn diagnostic, void* user);
+ALPENGLOW_API Status terrainSize(const TerrainDesc& desc, TerrainSize* out, DiagnosticFn diagnostic,
+                                 void* user);
 
 /// Writes the mesh, and where it lies to `place` (may be null). terrainSize() says how many
 /// vertices and indices (plain triangles, counter-clockwise seen from outside). The first width *
@@ -78,8 +81,9 @@ Status terrainSize(const TerrainDesc& desc, TerrainSize* out, DiagnosticFn diagn
 /// that is not above 0 or too small for single precision at this distance from the origin, a field
 /// whose half diagonal is beyond 1/4 pi radius_m or that rises higher than radius_m, negative
 /// scales and widths, a skirt deeper than half of radius_m. Allocates nothing. Thread-safe.
-Status buildTerrain(const TerrainDesc& desc, TerrainVertex* vertices, uint32_t* indices,
-                    TerrainPlace* place, DiagnosticFn diagnostic, void* user);
+ALPENGLOW_API Status buildTerrain(const TerrainDesc& desc, TerrainVertex* vertices,
+                                  uint32_t* indices, TerrainPlace* place, DiagnosticFn diagnostic,
+                                  void* user);
 
 }  // namespace v1
 }  // namespace alpenglow

@@ -2,6 +2,8 @@
 // frame numbers and memory hooks. Plain types only: no STL, no exceptions, no global state.
 #pragma once
 
+#include <alpenglow/export.h>
+
 #include <vulkan/vulkan_core.h>
 
 #include <cstdint>
@@ -22,7 +24,7 @@ enum class Status : int32_t {
 };
 
 /// One line of English for people: "InvalidArgument", ... Never null.
-const char* statusName(Status status);
+ALPENGLOW_API const char* statusName(Status status);
 
 enum class Severity : int32_t { Info, Warning, Error };
 

@@ -80,9 +80,9 @@ struct ViewDesc {
 };
 
 /// Checks the description and makes the pipelines.
-Status createView(Context* context, const ViewDesc& desc, View** out);
+ALPENGLOW_API Status createView(Context* context, const ViewDesc& desc, View** out);
 /// Frees the view once `frame.completed` of a later call reaches `frame.submitting`.
-void destroyView(View* view, const FrameInfo& frame);
+ALPENGLOW_API void destroyView(View* view, const FrameInfo& frame);
 
 /// Where the camera is and looks, in the planet's frame: origin at the centre, z to the north pole,
 /// x to latitude 0, longitude 0; metres. Altitude is |position| - Rg, taken in double; below the
@@ -122,15 +122,15 @@ struct SkyDraw {
 /// the atmosphere and 128 x 160 outside (fewer where ViewDesc::skySlice is of a level below
 /// medium), and off by what docs/stability.md says. Clobbers: compute pipeline, sets 0 and 1, push
 /// constants.
-Status recordSkySlice(View* view, VkCommandBuffer commands, const FrameInfo& frame,
-                      const Tables* tables, const SkyDraw& draw);
+ALPENGLOW_API Status recordSkySlice(View* view, VkCommandBuffer commands, const FrameInfo& frame,
+                                    const Tables* tables, const SkyDraw& draw);
 
 /// Draws the viewport inside the host's rendering scope, with dynamic viewport and scissor: a few
 /// draws, at most 64, of rectangles that together are the viewport, each with the pipeline for what
 /// its pixels may see of air, ground and sun. The tables must be ready. Clobbers: graphics
 /// pipeline, sets 0 and 1 (0 to 3 with ViewDesc::sceneDepth), push constants, viewport, scissor.
-Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame, const Tables* tables,
-                 const SkyDraw& draw);
+ALPENGLOW_API Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame,
+                               const Tables* tables, const SkyDraw& draw);
 
 /// Aerial perspective: draws, inside the host's rendering scope, over every pixel of the viewport
 /// that the host's scene covers: colour times transmittance plus light scattered on the way, less
@@ -141,25 +141,26 @@ Status recordSky(View* view, VkCommandBuffer commands, const FrameInfo& frame, c
 /// tables. Sky pixels are left to recordSky, in either order. Needs ViewDesc::sceneDepth,
 /// kCapabilityAir and SkyDraw::depth. Not for fisheyes. Clobbers what recordSky does, and sets 0
 /// to 2.
-Status recordAir(View* view, VkCommandBuffer commands, const FrameInfo& frame, const Tables* tables,
-                 const SkyDraw& draw);
+ALPENGLOW_API Status recordAir(View* view, VkCommandBuffer commands, const FrameInfo& frame,
+                               const Tables* tables, const SkyDraw& draw);
 
 /// The matrix (column-major) that a host may draw its scene with, and that its depth image must
 /// agree with: from metres off the camera, in the planet's axes, to Vulkan's clip space. With z the
 /// distance along Camera::forward, n = near_m and f = far_m, depth is (Standard) f (z - n) /
 /// (z (f - n)), or 1 - n / z without f; (Reversed) n (f - z) / (z (f - n)), or n / z; orthographic
 /// (z - n) / (f - n), or (f - z) / (f - n). Not for fisheyes.
-void clipFromCamera(Projection projection, DepthConvention convention, const SkyDraw& draw,
-                    float matrix[16]);
+ALPENGLOW_API void clipFromCamera(Projection projection, DepthConvention convention,
+                                  const SkyDraw& draw, float matrix[16]);
 
 /// A camera above a point of the planet, as scene files give it. Angles in radians: heading
 /// clockwise from north, pitch above the horizon (pi/2: the zenith), roll clockwise.
-Camera cameraFromGeodetic(const Parameters& parameters, double latitude, double longitude,
-                          double altitude_m, double heading, double pitch, double roll, double fov);
+ALPENGLOW_API Camera cameraFromGeodetic(const Parameters& parameters, double latitude,
+                                        double longitude, double altitude_m, double heading,
+                                        double pitch, double roll, double fov);
 /// Unit vector towards a sun seen at these angles about the camera's local vertical: elevation
 /// above the horizontal, azimuth clockwise from north.
-void sunDirection(double latitude, double longitude, double elevation, double azimuth,
-                  double direction[3]);
+ALPENGLOW_API void sunDirection(double latitude, double longitude, double elevation, double azimuth,
+                                double direction[3]);
 
 }  // namespace v1
 }  // namespace alpenglow
