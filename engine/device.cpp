@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <new>
 
+#include "engine/exceptions.h"
 #include "engine/requirements.h"
 #include "engine/structure.h"
 
@@ -123,9 +124,8 @@ Status Device::create(const ContextDesc& desc, const Dispatch& table, Device** o
                   properties.deviceName, VK_API_VERSION_MAJOR(properties.apiVersion),
                   VK_API_VERSION_MINOR(properties.apiVersion));
   }
-  try {
-    *out = new Device(desc, table);
-  } catch (const std::bad_alloc&) {
+  ALPENGLOW_TRY { *out = new Device(desc, table); }
+  ALPENGLOW_CATCH_BAD_ALLOC {
     return refuse(desc, Status::OutOfHostMemory, "There is no host memory for a context.");
   }
   return Status::Ok;
@@ -255,9 +255,8 @@ void Device::countPipeline(uint64_t variantKey) {
   const auto place = std::lower_bound(variants_.begin(), variants_.end(), variantKey);
   if (place != variants_.end() && *place == variantKey) return;
   ++counters_.shaderVariants;
-  try {
-    variants_.insert(place, variantKey);
-  } catch (const std::bad_alloc&) {
+  ALPENGLOW_TRY { variants_.insert(place, variantKey); }
+  ALPENGLOW_CATCH_BAD_ALLOC {
     // Without memory for the key, an equal pipeline made later is counted again: a figure in a
     // report, not worth failing a pipeline that works.
   }

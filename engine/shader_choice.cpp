@@ -1,6 +1,7 @@
 // Which code a pipeline is made of: the library's, or the host's in place of it.
 #include <new>
 
+#include "engine/exceptions.h"
 #include "engine/pipeline.h"
 #include "engine/spirv_interface.h"
 
@@ -48,25 +49,28 @@ Status compare(const Device& device, const Shader& shader, const SpirvInterface&
 
 }  // namespace
 
-Status chooseShader(const Device& device, const Shader& own, Shader* out) try {
-  *out = own;
-  const ShaderHook& hook = device.shaderHook();
-  if (hook.replace == nullptr || own.code == nullptr) return Status::Ok;
-  Shader given = own;
-  if (!hook.replace(hook.user, own.name, &given.code, &given.bytes)) return Status::Ok;
-  SpirvInterface wanted, found;
-  if (const char* why = readInterface(given.code, given.bytes, &found)) {
-    return refuse(device, own, why);
+Status chooseShader(const Device& device, const Shader& own, Shader* out) {
+  ALPENGLOW_TRY {
+    *out = own;
+    const ShaderHook& hook = device.shaderHook();
+    if (hook.replace == nullptr || own.code == nullptr) return Status::Ok;
+    Shader given = own;
+    if (!hook.replace(hook.user, own.name, &given.code, &given.bytes)) return Status::Ok;
+    SpirvInterface wanted, found;
+    if (const char* why = readInterface(given.code, given.bytes, &found)) {
+      return refuse(device, own, why);
+    }
+    if (readInterface(own.code, own.bytes, &wanted) == nullptr) {
+      const Status status = compare(device, own, wanted, found);
+      if (status != Status::Ok) return status;
+    }
+    *out = given;
+    return Status::Ok;
   }
-  if (readInterface(own.code, own.bytes, &wanted) == nullptr) {
-    const Status status = compare(device, own, wanted, found);
-    if (status != Status::Ok) return status;
+  ALPENGLOW_CATCH_BAD_ALLOC {  // No exception may reach the host.
+    return device.fail(Status::OutOfHostMemory, VK_SUCCESS,
+                       "There is no host memory to look at the code for shader \"%s\".", own.name);
   }
-  *out = given;
-  return Status::Ok;
-} catch (const std::bad_alloc&) {  // No exception may reach the host.
-  return device.fail(Status::OutOfHostMemory, VK_SUCCESS,
-                     "There is no host memory to look at the code for shader \"%s\".", own.name);
 }
 
 }  // namespace alpenglow::engine

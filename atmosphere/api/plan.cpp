@@ -15,6 +15,7 @@
 #include "atmosphere/plan/rules.h"
 #include "atmosphere/sky/parts.h"
 #include "atmosphere/sky/view_cost.h"
+#include "engine/exceptions.h"
 
 namespace alpenglow {
 namespace {
@@ -188,21 +189,24 @@ void fill(const Parameters& parameters, const Needs& needs, const TableDesc& bas
 inline namespace v1 {
 
 Status makePlan(const Parameters& parameters, const Needs& needs, const TableDesc& base, Plan* out,
-                char* message, size_t messageSize) try {
-  if (out == nullptr) return Status::InvalidArgument;
-  Status status = validate(parameters, message, messageSize);
-  if (status != Status::Ok) return status;
-  model::Sentence why;
-  status = plan::checkNeeds(needs, &why);
-  if (status == Status::Ok) status = plan::checkBase(needs, base, &why);
-  why.copyTo(message, messageSize);
-  if (status != Status::Ok) return status;
-  Plan made;
-  fill(parameters, needs, base, &made);
-  *out = made;
-  return Status::Ok;
-} catch (const std::bad_alloc&) {  // No exception may reach the host.
-  return Status::OutOfHostMemory;
+                char* message, size_t messageSize) {
+  ALPENGLOW_TRY {
+    if (out == nullptr) return Status::InvalidArgument;
+    Status status = validate(parameters, message, messageSize);
+    if (status != Status::Ok) return status;
+    model::Sentence why;
+    status = plan::checkNeeds(needs, &why);
+    if (status == Status::Ok) status = plan::checkBase(needs, base, &why);
+    why.copyTo(message, messageSize);
+    if (status != Status::Ok) return status;
+    Plan made;
+    fill(parameters, needs, base, &made);
+    *out = made;
+    return Status::Ok;
+  }
+  ALPENGLOW_CATCH_BAD_ALLOC {  // No exception may reach the host.
+    return Status::OutOfHostMemory;
+  }
 }
 
 void describeView(const Plan& plan, ViewDesc* view) {

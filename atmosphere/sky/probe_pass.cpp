@@ -8,6 +8,7 @@
 #include "atmosphere/bake/effect_constants.h"
 #include "atmosphere/model/query.h"
 #include "atmosphere/sky/shader_choice.h"
+#include "engine/exceptions.h"
 
 namespace alpenglow::sky {
 namespace {
@@ -98,25 +99,28 @@ Status ProbePass::makeLayouts() {
   return engine::createPipelineLayout(device_, sets, 2, &range, 1, "Alpenglow probe", &layout_);
 }
 
-Status ProbePass::pipeline(const TableDesc& tables, VkPipeline* out) try {
-  const std::scoped_lock lock(mutex_);
-  VkPipeline& slot = pipelines_[{tables.solver, tables.mie, tables.without}];
-  Status status = Status::Ok;
-  if (slot == VK_NULL_HANDLE) {
-    engine::SpecConstant constants[1 + bake::kEffectConstants] = {
-        engine::specBool(0, tables.mie == MieStorage::Packed)};
-    std::ranges::copy(bake::effectConstants(tables.without), constants + 1);
-    engine::ComputePipelineDesc desc;
-    desc.shader = probeShader(tables.solver, tables.without);
-    desc.layout = layout_;
-    desc.constants = constants;
-    desc.constantCount = 1 + bake::kEffectConstants;
-    status = engine::createComputePipeline(device_, desc, &slot);
+Status ProbePass::pipeline(const TableDesc& tables, VkPipeline* out) {
+  ALPENGLOW_TRY {
+    const std::scoped_lock lock(mutex_);
+    VkPipeline& slot = pipelines_[{tables.solver, tables.mie, tables.without}];
+    Status status = Status::Ok;
+    if (slot == VK_NULL_HANDLE) {
+      engine::SpecConstant constants[1 + bake::kEffectConstants] = {
+          engine::specBool(0, tables.mie == MieStorage::Packed)};
+      std::ranges::copy(bake::effectConstants(tables.without), constants + 1);
+      engine::ComputePipelineDesc desc;
+      desc.shader = probeShader(tables.solver, tables.without);
+      desc.layout = layout_;
+      desc.constants = constants;
+      desc.constantCount = 1 + bake::kEffectConstants;
+      status = engine::createComputePipeline(device_, desc, &slot);
+    }
+    *out = slot;
+    return status;
   }
-  *out = slot;
-  return status;
-} catch (const std::bad_alloc&) {  // No exception may reach the host.
-  return device_.fail(Status::OutOfHostMemory, VK_SUCCESS, "A probe found no host memory.");
+  ALPENGLOW_CATCH_BAD_ALLOC {  // No exception may reach the host.
+    return device_.fail(Status::OutOfHostMemory, VK_SUCCESS, "A probe found no host memory.");
+  }
 }
 
 Status ProbePass::prepareCall(const Tables& tables, const ProbeQuery* queries, uint32_t count,

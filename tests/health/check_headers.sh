@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# check_headers.sh SOURCE_DIR VULKAN_INCLUDE_DIR COMPILER...: compiles each public header of the core
-# alone, twice in a row, as a host without C++20, exceptions and RTTI does.
+# check_headers.sh SOURCE_DIR VULKAN_INCLUDE_DIR COMPILER...: compiles each public header alone, twice
+# in a row, as C++17, and those of the core without exceptions and RTTI.
 set -euo pipefail
 cd "$1"
 # As a system's folder, but /usr/include is one already, and in a place of its own.
@@ -16,21 +16,24 @@ compile() {
   local compiler="$1" header="$2"
   shift 2
   if ! printf '#include <alpenglow/%s>\n#include <alpenglow/%s>\n' "$header" "$header" |
-      "$compiler" -std=c++17 -fno-exceptions -fno-rtti -Wall -Wextra -Wpedantic -Werror \
-        -fsyntax-only -Iatmosphere/include "${vulkan[@]}" "$@" -x c++ -; then
+      "$compiler" -std=c++17 -Wall -Wextra -Wpedantic -Werror -fsyntax-only \
+        -Iatmosphere/include -Iengine/headless/include "${vulkan[@]}" "$@" -x c++ -; then
     echo "alpenglow/$header does not compile with $compiler as C++17 $*, see above." >&2
     failed=1
   fi
 }
-
+bare=(-fno-exceptions -fno-rtti)
 if (( $# == 0 )); then
   echo "No compiler was named." >&2
   exit 1
 fi
 for compiler in "$@"; do
   for path in atmosphere/include/alpenglow/*.h; do
-    compile "$compiler" "${path##*/}"
+    compile "$compiler" "${path##*/}" "${bare[@]}"
   done
-  compile "$compiler" alpenglow.h -DALPENGLOW_SHARED
+  compile "$compiler" alpenglow.h "${bare[@]}" -DALPENGLOW_SHARED
+  for path in atmosphere/include/alpenglow/io/*.h engine/headless/include/alpenglow/*.h; do
+    compile "$compiler" "${path#*/include/alpenglow/}"
+  done
 done
 exit "$failed"
