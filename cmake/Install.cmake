@@ -31,6 +31,14 @@ if(ALPENGLOW_BUILD_IO)
           DESTINATION "${package}")
 endif()
 if(ALPENGLOW_BUILD_SAMPLES)
+  if(ALPENGLOW_SHARED AND UNIX AND NOT APPLE)
+    file(RELATIVE_PATH libraries "/p/${CMAKE_INSTALL_BINDIR}" "/p/${CMAKE_INSTALL_LIBDIR}")
+    foreach(program alpenglow alpenglow_view)
+      if(TARGET ${program})
+        set_target_properties(${program} PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
+      endif()
+    endforeach()
+  endif()
   install(TARGETS alpenglow RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   if(ALPENGLOW_BUILD_VIEWER)
     install(TARGETS alpenglow_view RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
@@ -55,6 +63,7 @@ install(FILES "${PROJECT_BINARY_DIR}/AlpenglowConfig.cmake"
 
 # From the .pc file to the prefix, so that the whole may be moved.
 file(RELATIVE_PATH ALPENGLOW_PC_PREFIX "/p/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/p")
+string(REGEX REPLACE "/$" "" ALPENGLOW_PC_PREFIX "${ALPENGLOW_PC_PREFIX}")
 if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}" OR IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
   message(WARNING "alpenglow.pc expects CMAKE_INSTALL_LIBDIR and CMAKE_INSTALL_INCLUDEDIR below the "
                   "prefix, and one of them is an absolute path.")
