@@ -8,12 +8,15 @@
 #include <sys/resource.h>
 #endif
 
-#ifdef __has_feature
-#if __has_feature(address_sanitizer)
-#define __SANITIZE_ADDRESS__ 1
+// GCC says it by macros, clang by features.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define ALPENGLOW_SANITIZED
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define ALPENGLOW_SANITIZED
 #endif
 #endif
-#if defined(__SANITIZE_ADDRESS__) && defined(__linux__)
+#if defined(ALPENGLOW_SANITIZED) && defined(__linux__)
 #define ALPENGLOW_KEEP_DRIVERS
 #include <link.h>
 

@@ -21,7 +21,7 @@ void closeLibrary(void* library);
 
 /// Keeps the libraries of drivers and layers that are loaded now until the process ends, in a build
 /// with a sanitizer; does nothing in others. An unloaded module takes with it the pointers and the
-/// names by which a leak checker tells its memory from ours.
+/// names by which a sanitizer tells its memory and its threads from ours.
 void keepDrivers();
 
 /// User CPU time of the whole process, so that of a software driver's threads too.
