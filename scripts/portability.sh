@@ -43,8 +43,16 @@ embed() {
 core=(-DALPENGLOW_BUILD_IO=OFF -DALPENGLOW_BUILD_COST=OFF -DALPENGLOW_BUILD_SAMPLES=OFF
   -DALPENGLOW_BUILD_VIEWER=OFF -DALPENGLOW_BUILD_TESTS=OFF)
 
+# The standard library's and GoogleTest's headers are read once for all files, which halves the time.
 step_clang() {
-  build clang -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_CXX_FLAGS_RELEASE=-O0 -DALPENGLOW_BUILD_TESTS=ON
+  local headers="$work/headers" gtest=-DGTEST_HAS_PTHREAD=1
+  mkdir -p "$work"
+  grep -rhoE '^#include <([a-z_]+|gtest/gtest\.h)>' atmosphere engine samples tests \
+    --include='*.cpp' --include='*.h' | grep -vE '<(dlfcn|volk)' | sort -u >"$headers.h"
+  clang++ -O0 -std=c++20 -fPIC -fvisibility=hidden -fvisibility-inlines-hidden "$gtest" \
+    -x c++-header "$headers.h" -o "$headers.pch"
+  build clang -DCMAKE_CXX_COMPILER=clang++ -DALPENGLOW_BUILD_TESTS=ON \
+    "-DCMAKE_CXX_FLAGS_RELEASE=-O0 $gtest -include-pch $headers.pch"
 }
 
 step_shared() {
