@@ -1,11 +1,11 @@
-# OpenImageIO, for our build and for users of the installed package.
+# OpenImageIO, for our build and for users of the installed package, who have found it by then.
 
 if(NOT TARGET OpenImageIO::OpenImageIO)
-  if(CMAKE_FIND_PACKAGE_NAME)
-    find_dependency(OpenImageIO)
-  else()
-    find_package(OpenImageIO REQUIRED)
-  endif()
+  find_package(OpenImageIO QUIET)
+endif()
+if(NOT TARGET OpenImageIO::OpenImageIO)
+  message(FATAL_ERROR "Alpenglow::io reads and writes pictures with OpenImageIO, which was not found "
+                      "(Debian: libopenimageio-dev); ALPENGLOW_BUILD_IO=OFF builds without io.")
 endif()
 
 # Debian's target names include folders of packages that it doesn't depend on (opencv4), and CMake

@@ -7,7 +7,11 @@
 # `target` may be of any type, INTERFACE included; whoever links it can include the header and is
 # built after it. The shader is compiled again when a file that it includes changes. SOURCE is
 # relative to the calling folder; includes are found beside the source and in shaders/glsl.
+#
+# With ALPENGLOW_SHADERS_FROM nothing is compiled that another build of the same sources has.
 
+set(ALPENGLOW_SHADERS_FROM "" CACHE PATH
+    "shaders/generated of another, finished build of the same sources; empty: compile the shaders")
 set(ALPENGLOW_GENERATED_SHADER_DIR "${PROJECT_BINARY_DIR}/shaders/generated")
 set(ALPENGLOW_GLSL_SOURCE_DIR "${PROJECT_SOURCE_DIR}/shaders/glsl")
 set(ALPENGLOW_EMBED_SCRIPT "${PROJECT_SOURCE_DIR}/cmake/EmbedSpirv.cmake")
@@ -42,8 +46,19 @@ function(alpenglow_embed_shader)
   get_filename_component(stem "${arg_OUTPUT}" NAME_WE)
   set(spirv "${ALPENGLOW_GENERATED_SHADER_DIR}/spirv/${stem}.spv")
   set(header "${ALPENGLOW_GENERATED_SHADER_DIR}/alpenglow/shaders/${stem}.h")
-  file(MAKE_DIRECTORY "${ALPENGLOW_GENERATED_SHADER_DIR}/spirv")
   alpenglow_note_shader("${source}" "${arg_NAME}" "${arg_DEFINES}")
+  get_target_property(type ${arg_TARGET} TYPE)
+  if(type STREQUAL "INTERFACE_LIBRARY")
+    set(scope INTERFACE)
+  else()
+    set(scope PUBLIC)
+  endif()
+  if(ALPENGLOW_SHADERS_FROM AND EXISTS "${ALPENGLOW_SHADERS_FROM}/alpenglow/shaders/${stem}.h")
+    target_include_directories(${arg_TARGET} ${scope}
+                               "$<BUILD_INTERFACE:${ALPENGLOW_SHADERS_FROM}>")
+    return()
+  endif()
+  file(MAKE_DIRECTORY "${ALPENGLOW_GENERATED_SHADER_DIR}/spirv")
   list(TRANSFORM arg_DEFINES PREPEND "-D")
 
   add_custom_command(
@@ -63,12 +78,6 @@ function(alpenglow_embed_shader)
   add_custom_target(alpenglow_shader_${stem} DEPENDS "${header}")
   add_dependencies(${arg_TARGET} alpenglow_shader_${stem})
 
-  get_target_property(type ${arg_TARGET} TYPE)
-  if(type STREQUAL "INTERFACE_LIBRARY")
-    set(scope INTERFACE)
-  else()
-    set(scope PUBLIC)
-  endif()
   target_include_directories(${arg_TARGET} ${scope}
                              $<BUILD_INTERFACE:${ALPENGLOW_GENERATED_SHADER_DIR}>)
 endfunction()

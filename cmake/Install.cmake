@@ -1,17 +1,16 @@
-# Installed: libraries with their CMake package, public headers, the program, and under
+# Installed: libraries with their CMake package and pkg-config file, the licence, public headers, the program, and under
 # share/alpenglow the GLSL that hosts include, the sample scenes and their data.
 include(CMakePackageConfigHelpers)
 
 set(share "${CMAKE_INSTALL_DATADIR}/alpenglow")
 set(package "${CMAKE_INSTALL_LIBDIR}/cmake/Alpenglow")
 
-# alpenglow_options and alpenglow_internal are empty outside of the build tree; they are exported
-# because CMake lists what a static library was linked to.
-install(TARGETS alpenglow_headers alpenglow_options alpenglow_internal alpenglow_glsl
-                alpenglow_atmosphere alpenglow_headless alpenglow_reference
+install(TARGETS alpenglow_headers alpenglow_glsl alpenglow_atmosphere
+                alpenglow_headless alpenglow_reference
         EXPORT AlpenglowTargets
         ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
-        LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+        LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+        RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 install(EXPORT AlpenglowTargets NAMESPACE Alpenglow:: DESTINATION "${package}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/atmosphere/include/alpenglow"
                   "${PROJECT_SOURCE_DIR}/engine/headless/include/alpenglow"
@@ -32,6 +31,14 @@ if(ALPENGLOW_BUILD_IO)
           DESTINATION "${package}")
 endif()
 if(ALPENGLOW_BUILD_SAMPLES)
+  if(ALPENGLOW_SHARED AND UNIX AND NOT APPLE)
+    file(RELATIVE_PATH libraries "/p/${CMAKE_INSTALL_BINDIR}" "/p/${CMAKE_INSTALL_LIBDIR}")
+    foreach(program alpenglow alpenglow_view)
+      if(TARGET ${program})
+        set_target_properties(${program} PROPERTIES INSTALL_RPATH "$ORIGIN/${libraries}")
+      endif()
+    endforeach()
+  endif()
   install(TARGETS alpenglow RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
   if(ALPENGLOW_BUILD_VIEWER)
     install(TARGETS alpenglow_view RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
@@ -53,3 +60,20 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/AlpenglowConfigVersion.c
 install(FILES "${PROJECT_BINARY_DIR}/AlpenglowConfig.cmake"
               "${PROJECT_BINARY_DIR}/AlpenglowConfigVersion.cmake"
         DESTINATION "${package}")
+
+# From the .pc file to the prefix, so that the whole may be moved.
+file(RELATIVE_PATH ALPENGLOW_PC_PREFIX "/p/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/p")
+string(REGEX REPLACE "/$" "" ALPENGLOW_PC_PREFIX "${ALPENGLOW_PC_PREFIX}")
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}" OR IS_ABSOLUTE "${CMAKE_INSTALL_INCLUDEDIR}")
+  message(WARNING "alpenglow.pc expects CMAKE_INSTALL_LIBDIR and CMAKE_INSTALL_INCLUDEDIR below the "
+                  "prefix, and one of them is an absolute path.")
+endif()
+set(ALPENGLOW_PC_DEFINE "")
+if(ALPENGLOW_SHARED)
+  set(ALPENGLOW_PC_DEFINE " -DALPENGLOW_SHARED")
+endif()
+configure_file("${PROJECT_SOURCE_DIR}/cmake/alpenglow.pc.in" "${PROJECT_BINARY_DIR}/alpenglow.pc"
+               @ONLY)
+install(FILES "${PROJECT_BINARY_DIR}/alpenglow.pc"
+        DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}")

@@ -1,5 +1,5 @@
-# What every room compiles with. `alpenglow_options` never leaves the build tree: its properties are
-# wrapped in BUILD_INTERFACE, so that a room may link it privately and still be exported.
+# What every room compiles with. `alpenglow_options` never leaves the build tree: what is installed
+# links it as $<BUILD_INTERFACE:alpenglow_options>.
 
 option(ALPENGLOW_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(ALPENGLOW_BUILD_SAMPLES "Build the program alpenglow (needs io)" ${PROJECT_IS_TOP_LEVEL})
@@ -8,6 +8,11 @@ option(ALPENGLOW_BUILD_VIEWER "Build the program alpenglow-view (needs the sampl
 option(ALPENGLOW_BUILD_IO "Build Alpenglow::io (needs OpenImageIO and nlohmann-json)"
        ${PROJECT_IS_TOP_LEVEL})
 option(ALPENGLOW_BUILD_COST "Build Alpenglow::cost (needs io and cairo)" ${ALPENGLOW_BUILD_IO})
+option(ALPENGLOW_SHARED "Make Alpenglow::atmosphere and Alpenglow::reference shared libraries"
+       ${BUILD_SHARED_LIBS})
+option(ALPENGLOW_CORE_WITHOUT_EXCEPTIONS
+       "Compile the core with -fno-exceptions -fno-rtti: where host memory ends, the process does"
+       OFF)
 option(ALPENGLOW_INSTALL "Add install rules" ${PROJECT_IS_TOP_LEVEL})
 option(ALPENGLOW_WARNINGS_AS_ERRORS "Stop at the first warning" ${PROJECT_IS_TOP_LEVEL})
 
@@ -39,10 +44,13 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 
 add_library(alpenglow_options INTERFACE)
 target_compile_features(alpenglow_options INTERFACE $<BUILD_INTERFACE:cxx_std_20>)
+target_compile_definitions(alpenglow_options INTERFACE
+  $<BUILD_INTERFACE:$<$<BOOL:${ALPENGLOW_SHARED}>:ALPENGLOW_SHARED>>)
 set(gnu_like $<OR:$<CXX_COMPILER_ID:GNU>,$<CXX_COMPILER_ID:Clang>,$<CXX_COMPILER_ID:AppleClang>>)
 target_compile_options(alpenglow_options INTERFACE
   $<BUILD_INTERFACE:$<${gnu_like}:-Wall;-Wextra;-Wconversion;-Wshadow>>
-  $<BUILD_INTERFACE:$<${gnu_like}:-fPIC;-fvisibility=hidden;-fvisibility-inlines-hidden>>
+  $<BUILD_INTERFACE:$<$<AND:${gnu_like},$<NOT:$<BOOL:${WIN32}>>>:-fPIC>>
+  $<BUILD_INTERFACE:$<${gnu_like}:-fvisibility=hidden;-fvisibility-inlines-hidden>>
   $<BUILD_INTERFACE:$<$<AND:${gnu_like},$<BOOL:${ALPENGLOW_WARNINGS_AS_ERRORS}>>:-Werror>>)
 
 # What the library's own rooms and the tests see besides: every header, by its path from the top. The
@@ -58,7 +66,10 @@ target_include_directories(alpenglow_internal INTERFACE
 add_library(alpenglow_headers INTERFACE)
 add_library(Alpenglow::headers ALIAS alpenglow_headers)
 set_target_properties(alpenglow_headers PROPERTIES EXPORT_NAME headers)
-target_compile_features(alpenglow_headers INTERFACE cxx_std_20)
+target_compile_features(alpenglow_headers INTERFACE cxx_std_17)
+if(ALPENGLOW_SHARED)
+  target_compile_definitions(alpenglow_headers INTERFACE ALPENGLOW_SHARED)
+endif()
 target_include_directories(alpenglow_headers INTERFACE
   $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/atmosphere/include>
   $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

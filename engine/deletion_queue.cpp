@@ -4,6 +4,7 @@
 #include <new>
 
 #include "engine/device.h"
+#include "engine/exceptions.h"
 #include "engine/memory.h"
 
 namespace alpenglow::engine {
@@ -26,10 +27,11 @@ void DeletionQueue::defer(uint64_t frame, const MemoryBlock& block) {
 }
 
 void DeletionQueue::push(const Entry& entry) {
-  try {
+  ALPENGLOW_TRY {
     const std::lock_guard<std::mutex> lock(mutex_);
     entries_.push_back(entry);
-  } catch (const std::bad_alloc&) {
+  }
+  ALPENGLOW_CATCH_BAD_ALLOC {
     // The GPU may still use it, so keeping it for ever is all that can be done.
     device_.notice(Severity::Warning,
                    "There is no host memory to defer the destruction of an object until frame "

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "engine/structure.h"
+#include "engine/exceptions.h"
 
 namespace alpenglow::engine {
 namespace {
@@ -108,9 +109,10 @@ Status Device::create(const DeviceDesc& desc, const Dispatch& table, Device** ou
                   properties.deviceName, VK_API_VERSION_MAJOR(properties.apiVersion),
                   VK_API_VERSION_MINOR(properties.apiVersion));
   }
-  try {
+  ALPENGLOW_TRY {
     *out = new Device(desc, table);
-  } catch (const std::bad_alloc&) {
+  }
+  ALPENGLOW_CATCH_BAD_ALLOC {
     return refuse(desc, Status::OutOfHostMemory, "There is no host memory for a context.");
   }
   return Status::Ok;
@@ -241,9 +243,10 @@ void Device::countPipeline(uint64_t variantKey) {
   const auto place = std::lower_bound(variants_.begin(), variants_.end(), variantKey);
   if (place != variants_.end() && *place == variantKey) return;
   ++counters_.shaderVariants;
-  try {
+  ALPENGLOW_TRY {
     variants_.insert(place, variantKey);
-  } catch (const std::bad_alloc&) {
+  }
+  ALPENGLOW_CATCH_BAD_ALLOC {
     // Without memory for the key, an equal pipeline made later is counted again: a figure in a
     // report, not worth failing a pipeline that works.
   }

@@ -16,7 +16,9 @@
 #include "engine/requirements.h"
 #include "engine/result.h"
 
-#if defined(__GNUC__)
+#if defined(__MINGW32__)  // The plain name means Microsoft's printf there, which lacks %zu.
+#define ALPENGLOW_PRINTF(text, first) __attribute__((__format__(__gnu_printf__, text, first)))
+#elif defined(__GNUC__)
 #define ALPENGLOW_PRINTF(text, first) __attribute__((__format__(__printf__, text, first)))
 #else
 #define ALPENGLOW_PRINTF(text, first)

@@ -1,4 +1,5 @@
 #include "engine/frame_sets.h"
+#include "engine/exceptions.h"
 
 #include <algorithm>
 #include <new>
@@ -20,9 +21,10 @@ Status FrameSets::next(VkDescriptorSet* out) {
     *out = entry.set;
     return Status::Ok;
   }
-  try {
+  ALPENGLOW_TRY {
     entries_.reserve(entries_.size() + 1);
-  } catch (const std::bad_alloc&) {
+  }
+  ALPENGLOW_CATCH_BAD_ALLOC {
     return device_.fail(Status::OutOfHostMemory, VK_SUCCESS, "A frame of %s found no host memory.",
                         name_);
   }

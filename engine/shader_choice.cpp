@@ -1,6 +1,7 @@
 // Which code a pipeline is made of: the library's, or the host's in place of it.
 #include <new>
 
+#include "engine/exceptions.h"
 #include "engine/pipeline.h"
 #include "engine/spirv_interface.h"
 
@@ -49,7 +50,8 @@ Status compare(const Device& device, const Shader& shader, const SpirvInterface&
 
 }  // namespace
 
-Status chooseShader(const Device& device, const Shader& own, Shader* out) try {
+Status chooseShader(const Device& device, const Shader& own, Shader* out) {
+  ALPENGLOW_TRY {
   *out = own;
   const ShaderReplacement& hook = device.shaderReplacement();
   if (hook.replace == nullptr || own.code == nullptr) return Status::Ok;
@@ -65,9 +67,11 @@ Status chooseShader(const Device& device, const Shader& own, Shader* out) try {
   }
   *out = given;
   return Status::Ok;
-} catch (const std::bad_alloc&) {  // No exception may reach the host.
+  }
+  ALPENGLOW_CATCH_BAD_ALLOC {  // No exception may reach the host.
   return device.fail(Status::OutOfHostMemory, VK_SUCCESS,
                      "There is no host memory to look at the code for shader \"%s\".", own.name);
+  }
 }
 
 }  // namespace alpenglow::engine

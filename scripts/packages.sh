@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian packages that building and testing need, as far as they are missing. Asks
-# nothing. Set ALPENGLOW_SKIP_PACKAGES=1 where they come from elsewhere.
+# packages.sh [portability]: installs the Debian packages that building and testing need, or those
+# that scripts/portability.sh needs besides, as far as they are missing. Asks nothing. Set ALPENGLOW_SKIP_PACKAGES=1 where they come from elsewhere.
 set -euo pipefail
 
 packages=(
@@ -15,6 +15,10 @@ packages=(
   # what the viewer's tests use: a display without a monitor, and keys pressed on it
   xvfb xdotool
 )
+if [[ "${1:-}" == portability ]]; then
+  # a second compiler, one for Windows, what runs its programs and gives them a display
+  packages=(clang g++-mingw-w64-x86-64-posix wine wine64 xvfb xauth)
+fi
 
 if [[ "${ALPENGLOW_SKIP_PACKAGES:-}" == 1 ]]; then
   exit 0

@@ -15,6 +15,7 @@
 #include "atmosphere/sky/view_cost.h"
 #include "atmosphere/view/frame.h"
 #include "atmosphere/view/view_desc.h"
+#include "engine/exceptions.h"
 
 namespace alpenglow {
 namespace {
@@ -154,7 +155,8 @@ Status checkTables(const Parameters& parameters, const PlanRequest& request,
 inline namespace v1 {
 
 Status makePlan(const Parameters& parameters, const PlanRequest& request, Plan* out,
-                const DiagnosticSink& sink) try {
+                const DiagnosticSink& sink) {
+  ALPENGLOW_TRY {
   if (out == nullptr) return model::reportNull(sink, "makePlan", "the plan");
   Status status = validate(parameters, sink);
   if (status != Status::Ok) return status;
@@ -169,8 +171,10 @@ Status makePlan(const Parameters& parameters, const PlanRequest& request, Plan* 
   fill(parameters, request, &made);
   *out = made;
   return Status::Ok;
-} catch (const std::bad_alloc&) {  // No exception may reach the host.
+  }
+  ALPENGLOW_CATCH_BAD_ALLOC {  // No exception may reach the host.
   return model::report(sink, Status::OutOfHostMemory, "There is no host memory for a plan.");
+  }
 }
 
 VisibilityFlags visibleFrom(const Parameters& parameters, Projection projection,

@@ -3,6 +3,7 @@
 #include <new>
 
 #include "atmosphere/bake/table_set.h"
+#include "engine/exceptions.h"
 
 namespace alpenglow {
 inline namespace v1 {
@@ -181,9 +182,10 @@ void Tables::frameCompleted(uint64_t completed) {
 
 Status Tables::noteFrame() {
   if (recordedFrame_ == device_.submitting()) return Status::Ok;
-  try {
+  ALPENGLOW_TRY {
     imagesBefore_.resize(images_.size());
-  } catch (const std::bad_alloc&) {
+  }
+  ALPENGLOW_CATCH_BAD_ALLOC {
     return device_.fail(Status::OutOfHostMemory, VK_SUCCESS,
                         "Recording commands for tables found no host memory.");
   }

@@ -3,6 +3,8 @@
 #include <cstring>
 #include <new>
 
+#include "engine/exceptions.h"
+
 namespace alpenglow {
 inline namespace v1 {
 
@@ -25,7 +27,7 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
     return device.fail(Status::OutOfHostMemory, VK_SUCCESS, "Tables found no host memory.");
   }
   Status status = Status::Ok;
-  try {
+  ALPENGLOW_TRY {
     tables->plan_ = plan(parameters, desc, bake::finestFormat(device, desc.format));
     for (const bake::Pass& pass : tables->plan_.passes) {
       const bake::Stage& stage = tables->plan_.stages[pass.stage];
@@ -36,7 +38,8 @@ Status Tables::create(bake::Resources& resources, const Parameters& parameters,
     if (status == Status::Ok) status = tables->makeHostCopies();
     if (status == Status::Ok) status = tables->makeDescriptors();
     if (status == Status::Ok && bakes) status = tables->makePipelines();
-  } catch (const std::bad_alloc&) {  // No exception may reach the host.
+  }
+  ALPENGLOW_CATCH_BAD_ALLOC {  // No exception may reach the host.
     status = device.fail(Status::OutOfHostMemory, VK_SUCCESS, "Tables found no host memory.");
   }
   if (status != Status::Ok) {

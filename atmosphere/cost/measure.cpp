@@ -1,5 +1,4 @@
 // Goes through the configurations, and compares pictures of the models.
-#include <sys/resource.h>
 #include <sys/utsname.h>
 
 #include <alpenglow/version.h>

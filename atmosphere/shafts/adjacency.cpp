@@ -10,6 +10,8 @@
 
 #include "atmosphere/model/sentence.h"
 
+#include "engine/exceptions.h"
+
 namespace alpenglow {
 inline namespace v1 {
 namespace {
@@ -192,14 +194,15 @@ Status buildAdjacency(const MeshView& mesh, uint32_t* adjacency, AdjacencyReport
   if (!checkCounts(mesh, adjacency, &why) || !checkValues(mesh, &why)) {
     return model::report(sink, Status::InvalidArgument, why);
   }
-  try {
+  ALPENGLOW_TRY {
     AdjacencyReport found;
     const std::vector<uint32_t> first = weld(mesh, &found);
     const std::vector<HalfEdge> edges = halfEdges(mesh, first, &found);
     const std::vector<uint32_t> across = pairUp(edges, mesh.indexCount, &found);
     writeAdjacency(mesh, first, across, adjacency);
     if (report != nullptr) *report = found;
-  } catch (const std::bad_alloc&) {  // No exception may reach the host.
+  }
+  ALPENGLOW_CATCH_BAD_ALLOC {  // No exception may reach the host.
     why << "There is no host memory for the neighbours of " << mesh.indexCount / 3 << " triangles.";
     return model::report(sink, Status::OutOfHostMemory, why);
   }

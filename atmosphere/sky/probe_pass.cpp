@@ -123,7 +123,8 @@ Status ProbePass::makeLayouts() {
   return engine::createPipelineLayout(device_, sets, 2, &range, 1, "Alpenglow probe", &layout_);
 }
 
-Status ProbePass::pipeline(const TableDesc& tables, VkPipeline* out) try {
+Status ProbePass::pipeline(const TableDesc& tables, VkPipeline* out) {
+  ALPENGLOW_TRY {
   const std::scoped_lock lock(mutex_);
   VkPipeline& slot = pipelines_[{tables.solver, tables.mie, tables.disabledEffects}];
   Status status = Status::Ok;
@@ -140,8 +141,10 @@ Status ProbePass::pipeline(const TableDesc& tables, VkPipeline* out) try {
   }
   *out = slot;
   return status;
-} catch (const std::bad_alloc&) {  // No exception may reach the host.
+  }
+  ALPENGLOW_CATCH_BAD_ALLOC {  // No exception may reach the host.
   return device_.fail(Status::OutOfHostMemory, VK_SUCCESS, "A probe found no host memory.");
+  }
 }
 
 Status ProbePass::prepareCall(const Tables& tables, const ProbeQuery* queries, uint32_t count,

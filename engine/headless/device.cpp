@@ -1,23 +1,12 @@
 #include <alpenglow/headless.h>
-#include <sys/resource.h>
 
 #include "engine/headless/impl.h"
+#include "engine/headless/platform.h"
 #include "engine/structure.h"
 
 namespace alpenglow::headless {
-namespace {
 
 using engine::structure;
-
-/// User CPU time of the whole process, so that of a software driver's threads too.
-double userSeconds() {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_utime.tv_sec) +
-         1e-6 * static_cast<double>(usage.ru_utime.tv_usec);
-}
-
-}  // namespace
 
 Device::Impl::~Impl() {
   if (device == VK_NULL_HANDLE) return;

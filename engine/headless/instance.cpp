@@ -1,9 +1,8 @@
 #include "engine/headless/instance.h"
 
-#include <dlfcn.h>
-
 #include <cstring>
 
+#include "engine/headless/platform.h"
 #include "engine/result.h"
 #include "engine/structure.h"
 
@@ -12,7 +11,6 @@ namespace {
 
 using engine::structure;
 
-constexpr char kLoader[] = "libvulkan.so.1";
 constexpr char kLayer[] = "VK_LAYER_KHRONOS_validation";
 constexpr char kNoDevice[] =
     "No Vulkan device was found: install a driver such as the package mesa-vulkan-drivers, and "
@@ -83,19 +81,19 @@ Instance::~Instance() {
     vk_.DestroyDebugUtilsMessengerEXT(instance_, messenger_, nullptr);
   }
   if (instance_ != VK_NULL_HANDLE) vk_.DestroyInstance(instance_, nullptr);
-  if (library_ != nullptr) dlclose(library_);
+  if (library_ != nullptr) closeLibrary(library_);
 }
 
 bool Instance::openLoader(std::string* error) {
-  library_ = dlopen(kLoader, RTLD_NOW | RTLD_LOCAL);
+  std::string reason;
+  library_ = openLibrary(kLoader, &reason);
   if (library_ == nullptr) {
-    const char* reason = dlerror();
     return setError(error, std::string("The Vulkan loader ") + kLoader +
-                               " can't be opened: install the package libvulkan1 (" +
-                               (reason != nullptr ? reason : "no reason given") + ").");
+                               " can't be opened: install " + kLoaderComesWith + " (" + reason +
+                               ").");
   }
   getInstanceProcAddr_ =
-      reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library_, "vkGetInstanceProcAddr"));
+      reinterpret_cast<PFN_vkGetInstanceProcAddr>(findFunction(library_, "vkGetInstanceProcAddr"));
   if (getInstanceProcAddr_ == nullptr) {
     return setError(error, std::string("The library ") + kLoader +
                                " has no vkGetInstanceProcAddr, so it is not a Vulkan loader.");
@@ -152,6 +150,7 @@ bool Instance::createInstance(std::string* error) {
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return setError(error, kNoDevice);
     return setError(error, resultSentence("vkCreateInstance", result));
   }
+  keepDrivers();
   if (const char* missing = vk_.loadInstance(getInstanceProcAddr_, instance_, validation_)) {
     return setError(error, std::string("The Vulkan instance has no function ") + missing + ".");
   }

@@ -1,6 +1,11 @@
 # Configures, builds and runs the project SOURCE in the folder WORK, which is emptied first; the
-# picture of embed_minimal goes to CHECK. ARGUMENTS: cmake's, separated by "|".
+# picture of embed_minimal goes to CHECK. ARGUMENTS: cmake's, separated by "|"; -DPLAIN=ON among
+# them: compiled without exceptions and RTTI.
 string(REPLACE "|" ";" arguments "${ARGUMENTS}")
+if("-DPLAIN=ON" IN_LIST arguments)
+  list(REMOVE_ITEM arguments "-DPLAIN=ON")
+  string(APPEND FLAGS " -fno-exceptions -fno-rtti")
+endif()
 
 function(run step)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY "${WORK}" RESULT_VARIABLE result

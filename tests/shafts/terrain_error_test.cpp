@@ -68,7 +68,7 @@ class TerrainErrors : public TerrainShaftTest {
     loss.darkGround = !hit && ground && shadow.back().to > length - 1.0;
     const auto lit = reference::litScattering(medium, ray, length, shadow, 1e-5);
     const auto whole = reference::litScattering(medium, ray, length, {}, 1e-5);
-    for (int c = 0; c < 3; ++c) loss.of[c] = whole.value[c] - lit.value[c];
+    for (uint32_t c = 0; c < 3; ++c) loss.of[c] = whole.value[c] - lit.value[c];
     return loss;
   }
 

@@ -26,7 +26,8 @@ sky::Visible bruteForce(const Parameters& parameters, const PictureDesc& desc, c
   for (uint32_t y = 0; y < area.extent.height; y += stride) {
     for (uint32_t x = 0; x < area.extent.width; x += stride) {
       const auto direction =
-          pixelDirection(draw, desc.projection, area.offset.x + x, area.offset.y + y);
+          pixelDirection(draw, desc.projection, static_cast<uint32_t>(area.offset.x) + x,
+                         static_cast<uint32_t>(area.offset.y) + y);
       if (!direction) continue;
       const auto angle = [&](const Vec& to) {
         return std::atan2(length(cross(*direction, to)), dot(*direction, to));
@@ -139,7 +140,8 @@ TEST(VisibleTest, PartsAreTheViewport) {
           << "camera " << i << ", part " << k;
       for (uint32_t y = 0; y < part.area.extent.height; ++y)
         for (uint32_t x = 0; x < part.area.extent.width; ++x)
-          ++times.at((part.area.offset.y + y) * whole.width + part.area.offset.x + x);
+          ++times.at((static_cast<uint32_t>(part.area.offset.y) + y) * whole.width +
+                     static_cast<uint32_t>(part.area.offset.x) + x);
     }
     EXPECT_EQ(std::count(times.begin(), times.end(), 1), std::ptrdiff_t(times.size()))
         << "camera " << i;

@@ -1,0 +1,40 @@
+# Moves a copy of the package PREFIX into WORK and builds SOURCE from there by the compiler CXX alone.
+function(run step)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output
+                  ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    message(FATAL_ERROR "${step} failed (${result}):\n${output}")
+  endif()
+  message(STATUS "${step}: done")
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE "${WORK}")
+file(MAKE_DIRECTORY "${WORK}")
+file(COPY "${PREFIX}/" DESTINATION "${WORK}/moved")
+file(GLOB_RECURSE files "${WORK}/moved/*/alpenglow.pc")
+list(LENGTH files count)
+if(NOT count EQUAL 1)
+  message(FATAL_ERROR "One alpenglow.pc was expected below ${PREFIX}, there are ${count}.")
+endif()
+get_filename_component(folder "${files}" DIRECTORY)
+set(ENV{PKG_CONFIG_PATH} "${folder}")
+
+run("Asking pkg-config" "${PKG_CONFIG}" --cflags --libs alpenglow)
+string(FIND "${output}" "${PREFIX}/" position)
+if(NOT position EQUAL -1)
+  message(FATAL_ERROR "pkg-config names the folder from which the package was moved: ${output}")
+endif()
+separate_arguments(package UNIX_COMMAND "${output}")
+separate_arguments(flags UNIX_COMMAND "${FLAGS}")
+get_filename_component(libraries "${folder}" DIRECTORY)  # For a shared library.
+run("Building" "${CXX}" -std=c++17 -O1 ${flags} "${SOURCE}" -o "${WORK}/host" ${package} -lvulkan
+    "-Wl,-rpath,${libraries}")
+run("Running" "${WORK}/host" "${WORK}/sky.ppm" --small)
+run("Checking the picture" "${CHECK}" "${WORK}/sky.ppm" 640 360)
+
+run("Asking for the shaders" "${PKG_CONFIG}" --variable=glsldir alpenglow)
+string(STRIP "${output}" output)
+if(NOT EXISTS "${output}/alpenglow/atmosphere.glsl")
+  message(FATAL_ERROR "glsldir is \"${output}\", where no alpenglow/atmosphere.glsl is.")
+endif()
