@@ -1,6 +1,5 @@
 // What Tables record: slices of the bake, readback and upload.
 #include <algorithm>
-#include <new>
 
 #include "atmosphere/bake/table_set.h"
 
@@ -181,12 +180,6 @@ void Tables::frameCompleted(uint64_t completed) {
 
 Status Tables::noteFrame() {
   if (recordedFrame_ == device_.submitting()) return Status::Ok;
-  try {
-    imagesBefore_.resize(images_.size());
-  } catch (const std::bad_alloc&) {
-    return device_.fail(Status::OutOfHostMemory, VK_SUCCESS,
-                        "Recording commands for tables found no host memory.");
-  }
   for (size_t i = 0; i < images_.size(); ++i) imagesBefore_[i] = images_[i];
   stateBefore_ = state_;
   keptFrame_ = device_.submitting();
