@@ -1,9 +1,7 @@
 // What Tables record: slices of the bake, readback and upload.
 #include <algorithm>
-#include <new>
 
 #include "atmosphere/bake/table_set.h"
-#include "engine/exceptions.h"
 
 namespace alpenglow {
 inline namespace v1 {
@@ -182,13 +180,6 @@ void Tables::frameCompleted(uint64_t completed) {
 
 Status Tables::noteFrame() {
   if (recordedFrame_ == device_.submitting()) return Status::Ok;
-  ALPENGLOW_TRY {
-    imagesBefore_.resize(images_.size());
-  }
-  ALPENGLOW_CATCH_BAD_ALLOC {
-    return device_.fail(Status::OutOfHostMemory, VK_SUCCESS,
-                        "Recording commands for tables found no host memory.");
-  }
   for (size_t i = 0; i < images_.size(); ++i) imagesBefore_[i] = images_[i];
   stateBefore_ = state_;
   keptFrame_ = device_.submitting();

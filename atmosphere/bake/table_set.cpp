@@ -69,6 +69,7 @@ void Tables::destroy(Tables* tables, uint64_t frame) {
 Status Tables::makeImages() {
   std::vector<engine::Image*> persistent, scratch;
   images_.resize(plan_.images.size());
+  imagesBefore_.resize(images_.size());  // So that recording allocates nothing.
   for (size_t i = 0; i < images_.size(); ++i) {
     const bake::PlanImage& plan = plan_.images[i];
     if (!bakes_ && !plan.persistent) continue;

@@ -111,6 +111,7 @@ TEST_F(StandardSkyTest, ASkyContextTakesUploadsButDoesNotBake) {
     return true;
   });
   destroyTables(empty);
+  finishFrames(made);
   resourceReport(made, &report);
   EXPECT_EQ(report.bytes, 0u);
   destroyContext(made);

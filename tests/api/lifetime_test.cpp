@@ -178,6 +178,7 @@ TEST_F(StandardSkyTest, ResourcesAreCounted) {
   EXPECT_EQ(report.draws, 2u);
   for (View* view : views) destroyView(view);
   destroyTables(baked);
+  finishFrames(made);
   resourceReport(made, &report);
   EXPECT_EQ(report.bytes + report.images + report.buffers, 0u);
   EXPECT_EQ(report.peakBytes, whileBaking);

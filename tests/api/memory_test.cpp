@@ -112,6 +112,7 @@ TEST_F(StandardSkyTest, HooksServeAllMemory) {
   resourceReport(made, &report);
   EXPECT_GT(report.bytes, 0u);
   destroyTables(baked);
+  finishFrames(made);
   EXPECT_TRUE(host.alive.empty());
   resourceReport(made, &report);
   EXPECT_EQ(report.bytes, 0u);
@@ -219,6 +220,7 @@ TEST_F(StandardSkyTest, MappedRangesShareOneMemory) {
       << lastDiagnostic();
   EXPECT_EQ(pool.alive.size(), 2u);
   destroyTables(first);
+  finishFrames(made);
   EXPECT_EQ(pool.alive.size(), 1u);
   // The second range and those to come are still mapped.
   bakeAll(device(), second);
