@@ -45,6 +45,10 @@ ResourceReport resourceReportOf(const engine::Counters& counters) {
   report.peakBytes = counters.peakBytes;
   report.dispatches = counters.dispatches;
   report.draws = counters.draws;
+  report.lutUpdates = counters.lutUpdates;
+  report.lutsSkipped = counters.lutsSkipped;
+  report.shadowMapUpdates = counters.shadowMapUpdates;
+  report.shadowMapsSkipped = counters.shadowMapsSkipped;
   return report;
 }
 
