@@ -410,7 +410,9 @@ TEST_F(FrameTest, TheLightsColorIsThatOfProbes) {
           continue;
         }
         EXPECT_GT(got, 0.0) << altitude << " m, sun " << elevation;
-        const double arrives = answers[0].transmittance[c];
+        // Exactly at the horizon half of it is taken to have set.
+        const double half = elevation == 0.0 && altitude == 0.0 ? 0.5 : 1.0;
+        const double arrives = half * answers[0].transmittance[c];
         EXPECT_NEAR(got, arrives, 1e-3 * arrives + 1e-12)
             << altitude << " m, sun " << elevation << ", channel " << c;
         worst = std::max(worst, std::abs(got / arrives - 1.0));
@@ -444,7 +446,9 @@ TEST_F(FrameTest, TheLightsColorFadesWhileItsDiscSets) {
       for (uint32_t c = 0; c < kSpectrumSize; ++c) {
         const double now = work.color[0][c];
         EXPECT_LE(now, before[c]) << altitude << " m, step " << i << ", channel " << c;
-        if (i > -40 && i < 30) EXPECT_GT(now, 0.5 * before[c]) << altitude << " m, step " << i;
+        if (i > -40 && i < 30) {
+          EXPECT_GT(now, 0.5 * before[c]) << altitude << " m, step " << i;
+        }
         before[c] = now;
       }
     }
