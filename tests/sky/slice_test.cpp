@@ -67,8 +67,9 @@ TEST_F(StandardSliceTest, IsNotReadForAnotherCameraSunOrTables) {
   recordSlice(sliced, earth, draw);
   for (const FrameState& other : {drawAt(3000.0, 20.0), drawAt(2.0, 5.0)})
     expectNeedsSlice(sliced, earth, other);
-  expectNeedsSlice(sliced, mars, draw);
-  // Above the air there is none.
+  expectNeedsSlice(sliced, tables("earth-hazy"), draw);
+  // Above the air there is none, as for Mars, a smaller planet.
+  expectSame(picture(sliced, mars, draw, target), picture(direct, mars, draw, target));
   const FrameState space = drawAt(4e5, 20.0, -30.0);
   expectSame(picture(sliced, earth, space, target), picture(direct, earth, space, target));
   // A turned head looks into the same slice.
