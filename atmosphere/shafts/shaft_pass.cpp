@@ -264,7 +264,8 @@ Status LightShaftPass::updateFrame(VkCommandBuffer commands, const ShaftFrame& f
   if (status != Status::Ok) return status;
   device_.vk().CmdUpdateBuffer(commands, frame_.handle, 0, sizeof frame, &frame);
   barriers.memory(VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT, kReaders,
-                  VK_ACCESS_2_UNIFORM_READ_BIT);
+                  // As storage where it stands in for the blocks.
+                  VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
   return barriers.record(device_, commands);
 }
 

@@ -18,6 +18,7 @@ sky::ShaftSet shaftSetOf(const shafts::LightShaftPass& pass) {
           static_cast<float>(desc.multipleLoss)};
 }
 
+/// As this frame's record functions leave it, which the host calls after it has this.
 ImageInfo infoOf(const engine::Image& image) {
   ImageInfo info;
   info.name = image.name;
@@ -26,7 +27,7 @@ ImageInfo infoOf(const engine::Image& image) {
   info.format = image.desc.format;
   info.extent = image.desc.extent;
   info.bytes = image.bytes;
-  info.layout = image.state.layout;
+  info.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
   info.stage = image.writeStage;
   info.access = image.writeAccess;
   return info;
@@ -162,7 +163,7 @@ Status View::beginFrame(const FrameDesc& desc, FrameWork* work) {
   if (work != nullptr) *work = {};
   frame_.number = device_.submitting();
   frame_.valid = false;
-  frame_.shaftsRecorded = false;
+  frame_.mapRecorded = frame_.shaftsRecorded = false;
   const Status status = takeFrame(desc);
   if (status != Status::Ok) return status;
   frame_.valid = true;
@@ -336,20 +337,22 @@ Status View::recordLuts(VkCommandBuffer commands) {
 }
 
 Status View::recordShadowMap(VkCommandBuffer commands) {
-  const Status status = checkBegun("recordShadowMap");
+  Status status = checkBegun("recordShadowMap");
   if (status != Status::Ok || !desc_.hasShafts || !shafts_.mapped()) return status;
   if ((needed() & kRecordShadowMap) == 0) {
     ++device_.counters().shadowMapsSkipped;
     return Status::Ok;
   }
   ++device_.counters().shadowMapUpdates;
-  return shafts_.recordShadowMap(commands, frame_.state.sun.direction, frame_.casters);
+  status = shafts_.recordShadowMap(commands, frame_.state.sun.direction, frame_.casters);
+  frame_.mapRecorded = status == Status::Ok;
+  return status;
 }
 
 Status View::recordLightShafts(VkCommandBuffer commands) {
   Status status = checkBegun("recordLightShafts");
   if (status != Status::Ok || !desc_.hasShafts) return status;
-  if (shafts_.mapped() && !shafts_.map().drawnFor(frame_.state.sun.direction)) {
+  if (!frame_.mapRecorded && (needed() & kRecordShadowMap) != 0) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "recordLightShafts needs the shadow map of this frame, but recordShadowMap "
                         "was not called after beginFrame.");

@@ -86,6 +86,7 @@ struct View : public engine::FrameObject {
     sky::SkyConstants skyConstants;
     sky::AirConstants aerialConstants;
     sky::PictureSets sets;
+    bool mapRecorded = false;  ///< The shadow map was drawn.
     bool shaftsRecorded = false;
   };
   Frame frame_;

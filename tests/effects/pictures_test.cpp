@@ -125,10 +125,9 @@ TEST_F(EffectsTest, APictureOfTheSkyIsTheSameWithoutTheRest) {
   const FrameState draw = makeDraw(camera, sun, {48, 32});
   for (const bool sliced : {false, true}) {
     ViewDesc desc = viewDesc();
-    if (sliced) desc.skySlice = tables();
-    desc.alwaysSliced = sliced;
+    desc.sky = sliced ? SkyMethod::Lut : SkyMethod::Integrate;
     View* const whole = makeView(desc);
-    desc.without = kViewEffects;
+    desc.disabledEffects = kViewEffects;
     View* const part = makeView(desc);
     if (sliced) recordSlice(whole, tables(), draw);
     const Picture a = picture(whole, tables(), draw);

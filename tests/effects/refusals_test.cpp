@@ -26,14 +26,17 @@ class EffectRefusalsTest : public ShaftTest {
 
   void expectSkyRefused(View* view, const Tables* tables, const FrameState& draw, const char* parts) {
     run([&](VkCommandBuffer commands) {
-      expectRefused(recordSky(view, commands, tables, draw), parts);
+      expectRefused(testing::recordSky(view, commands, tables, draw), parts);
+      // One sentence is enough.
+      EXPECT_EQ(alpenglow::recordSky(view, commands), Status::NotReady) << parts;
+      EXPECT_EQ(message(), "");
       return true;
     });
   }
 
-  void expectViewRefused(const ViewDesc& desc, const char* parts) {
+  void expectViewRefused(const Tables* tables, const ViewDesc& desc, const char* parts) {
     View* made = reinterpret_cast<View*>(uintptr_t{1});
-    expectRefused(createView(context(), desc, &made), parts);
+    expectRefused(createView(context(), tables, desc, &made), parts);
     EXPECT_EQ(made, nullptr) << parts;
   }
 
@@ -45,7 +48,7 @@ class EffectRefusalsTest : public ShaftTest {
 
   ViewDesc without(EffectFlags effects) {
     ViewDesc desc = viewDesc();
-    desc.without = effects;
+    desc.disabledEffects = effects;
     return desc;
   }
 
@@ -58,13 +61,16 @@ class EffectRefusalsTest : public ShaftTest {
   }
   const ShaftSetup scene_ = sceneSetup();
 
-  /// With the depth of a scene, for recordAir and shafts.
+  /// Over the depth of a scene, with both LUTs.
   ViewDesc sceneDesc(EffectFlags effects) {
     ViewDesc desc = without(effects);
     desc.depth = DepthConvention::Reversed;
-    desc.sceneDepth = rigOf(scene_, kExtent).scene;
+    desc.sceneDepthFormat = scene_.depthFormat;
+    desc.sky = SkyMethod::Lut;
+    desc.aerialPerspective = AerialPerspective::On;
     return desc;
   }
+  FrameDesc sceneFrame(const FrameState& draw) { return frameOf(rigOf(scene_, kExtent), draw); }
 };
 
 TEST_F(EffectRefusalsTest, DrawsThatMaySeeWhatAViewIsWithout) {
@@ -85,18 +91,19 @@ TEST_F(EffectRefusalsTest, DrawsThatMaySeeWhatAViewIsWithout) {
   EXPECT_EQ(badValue(picture(noSpace, baked, drawAt(59e3, -60))), "");
 }
 
-TEST_F(EffectRefusalsTest, SlicesAndAirAreRefusedFromOutside) {
-  ViewDesc desc = sceneDesc(kViewEffects);
-  desc.skySlice = baked;
-  desc.alwaysSliced = true;
-  View* const view = makeView(desc);
+TEST_F(EffectRefusalsTest, LutsAndAirAreRefusedFromOutside) {
+  View* const view = makeView(sceneDesc(kViewEffects), baked);
   ResourceReport start, end;
   resourceReport(context(), &start);
   run([&](VkCommandBuffer c) {
-    const FrameState outside = drawAt(300e3, -60);
-    const char* const sentence = "300000 m high|Effect::SpaceViews";
-    expectRefused(recordSkySlice(view, c, baked, outside), sentence);
-    expectRefused(recordAir(view, c, baked, outside), sentence);
+    FrameWork work;
+    work.record = ~0u;
+    expectRefused(beginFrame(view, sceneFrame(drawAt(300e3, -60)), &work),
+                  "300000 m high|Effect::SpaceViews");
+    EXPECT_EQ(work.record, 0u);
+    EXPECT_EQ(alpenglow::recordLuts(view, c), Status::NotReady);
+    EXPECT_EQ(recordAerialPerspective(view, c), Status::NotReady);
+    EXPECT_EQ(message(), "");
     return true;
   });
   resourceReport(context(), &end);
@@ -104,27 +111,37 @@ TEST_F(EffectRefusalsTest, SlicesAndAirAreRefusedFromOutside) {
   EXPECT_EQ(end.dispatches, start.dispatches);
 }
 
-TEST_F(EffectRefusalsTest, AlwaysSlicedWantsASliceOfThisDraw) {
-  ViewDesc desc = sceneDesc(kViewEffects);
-  desc.skySlice = baked;
-  desc.alwaysSliced = true;
-  View* const view = makeView(desc);
+TEST_F(EffectRefusalsTest, LutsOfThisFrameAreWanted) {
+  View* const view = makeView(sceneDesc(kViewEffects), baked);
   const FrameState here = drawAt(500, 40), there = drawAt(501, 40);
   ResourceReport start, end;
   const auto refuseBoth = [&](const FrameState& draw) {
+    ASSERT_EQ(beginFrame(view, sceneFrame(draw), nullptr), Status::Ok) << message();
     run([&](VkCommandBuffer c) {
-      expectRefused(recordSky(view, c, baked, draw), "recordSky|alwaysSliced");
-      expectRefused(recordAir(view, c, baked, draw), "recordAir|alwaysSliced");
+      expectRefused(alpenglow::recordSky(view, c), "recordSky|recordLuts was not called");
+      expectRefused(recordAerialPerspective(view, c),
+                    "recordAerialPerspective|recordLuts was not called");
       return true;
     });
   };
   resourceReport(context(), &start);
   refuseBoth(here);
-  recordSlice(view, baked, here);
+  ASSERT_EQ(beginFrame(view, sceneFrame(here), nullptr), Status::Ok) << message();
+  run([&](VkCommandBuffer c) { return alpenglow::recordLuts(view, c) == Status::Ok; });
   refuseBoth(there);
   resourceReport(context(), &end);
   EXPECT_EQ(end.draws, start.draws);
-  EXPECT_EQ(badValue(picture(view, baked, here)), "");
+  // LUTs of the same camera and sun serve on.
+  FrameWork work;
+  ASSERT_EQ(beginFrame(view, sceneFrame(here), &work), Status::Ok) << message();
+  EXPECT_EQ(work.record, RecordFlags{kRecordAerialPerspective | kRecordSky});
+  TargetDesc targetDesc;
+  targetDesc.extent = kExtent;
+  Target target(device(), targetDesc);
+  const Picture seen = target.draw([&](VkCommandBuffer commands) {
+    return alpenglow::recordSky(view, commands) == Status::Ok;
+  });
+  EXPECT_EQ(badValue(seen), "") << message();
 }
 
 TEST_F(EffectRefusalsTest, ViewsAndTablesAreWithoutTheSame) {
@@ -134,44 +151,38 @@ TEST_F(EffectRefusalsTest, ViewsAndTablesAreWithoutTheSame) {
   clearDesc.disabledEffects = kMie;
   ASSERT_EQ(createTables(context(), preset("earth"), clearDesc, &clear), Status::Ok) << message();
   bakeAll(device(), clear);
-  View* const whole = makeView(without(kViewEffects));
-  View* const part = makeView(without(kMie | kViewEffects));
-  expectSkyRefused(whole, clear, drawAt(500, 40), "0x2|must agree");
-  expectSkyRefused(part, baked, drawAt(500, 40), "0x0|must agree");
+  const char* const sentence = "FrameDesc::tables|disabledEffects|create a view for these";
+  View* const whole = makeView(without(kViewEffects), baked);
+  View* const part = makeView(without(kViewEffects), clear);
+  // Those of the tables may be named again.
+  View* const named = makeView(without(kMie | kViewEffects), clear);
+  EXPECT_EQ(part->picture().disabledEffects, kMie | kViewEffects);
+  EXPECT_EQ(named->picture().disabledEffects, kMie | kViewEffects);
+  expectViewRefused(baked, without(kMie | kViewEffects),
+                    "ViewDesc::disabledEffects is|the tables lack");
+  expectSkyRefused(whole, clear, drawAt(500, 40), sentence);
+  expectSkyRefused(part, baked, drawAt(500, 40), sentence);
+  expectSkyRefused(named, baked, drawAt(500, 40), sentence);
   EXPECT_EQ(badValue(picture(part, clear, drawAt(500, 40))), "");
-  View* const air = makeView(sceneDesc(kViewEffects));
-  run([&](VkCommandBuffer c) {
-    expectRefused(recordAir(air, c, clear, drawAt(500, 0)), "0x2|must agree");
-    return true;
-  });
-  ViewDesc sliced = without(kViewEffects);
-  sliced.skySlice = clear;
-  sliced.alwaysSliced = true;
-  expectViewRefused(sliced, "0x2|must agree");
-  sliced.without = kMie | kViewEffects;
-  View* const slicedPart = makeView(sliced);
-  run([&](VkCommandBuffer c) {
-    expectRefused(recordSkySlice(slicedPart, c, baked, drawAt(500, 0)),
-                  "0x0|must agree");
-    return true;
-  });
+  const auto expectFrameRefused = [&](View* view, const Tables* tables) {
+    FrameDesc frame = sceneFrame(drawAt(500, 0));
+    frame.tables = tables;
+    expectRefused(beginFrame(view, frame, nullptr), sentence);
+  };
+  expectFrameRefused(makeView(sceneDesc(kViewEffects), baked), clear);
+  expectFrameRefused(makeView(sceneDesc(kViewEffects), clear), baked);
   destroyTables(clear);
 }
 
 TEST_F(EffectRefusalsTest, DescriptionsThatMakeNoSense) {
   ViewDesc desc = without(kSpace);
   desc.projection = Projection::Orthographic;
-  expectViewRefused(desc, "Effect::SpaceViews|orthographic");
-  desc = viewDesc();
-  desc.alwaysSliced = true;
-  expectViewRefused(desc, "alwaysSliced|no skySlice");
-  desc.skySlice = baked;
-  desc.projection = Projection::Orthographic;
-  expectViewRefused(desc, "alwaysSliced|orthographic");
-  expectViewRefused(without(kAir), "ViewDesc::without is 0x100|kViewEffects");
-  desc = without(kMie);
-  desc.solver = Solver::Standard;
-  expectViewRefused(desc, "ViewDesc::without is 0x2|kTableEffects");
+  expectViewRefused(baked, desc, "Effect::SpaceViews|orthographic");
+  expectViewRefused(baked, without(kAir), "ViewDesc::disabledEffects is 0x100|kViewEffects");
+  Tables* standard = nullptr;
+  ASSERT_EQ(createTables(context(), preset("earth"), smallTables(), &standard), Status::Ok);
+  expectViewRefused(standard, without(kMie), "ViewDesc::disabledEffects is 0x2|the tables lack");
+  destroyTables(standard);
 
   TableDesc tables;
   tables.disabledEffects = kMultiple;
@@ -186,26 +197,26 @@ TEST_F(EffectRefusalsTest, DescriptionsThatMakeNoSense) {
 }
 
 TEST_F(EffectRefusalsTest, ShaftsAreWithoutWhatTheirViewIs) {
-  ShaftsDesc desc;
-  desc.sceneDepth = rigOf(scene_, kExtent).scene;
-  desc.depth = DepthConvention::Reversed;
-  desc.shadowMapSize = 64;
-  desc.without = kViewEffects;
-  Shafts* shafts = nullptr;
-  ASSERT_EQ(createShafts(context(), desc, &shafts), Status::Ok) << message();
-  for (const EffectFlags other : {EffectFlags{0}, kSpace, kMie | kViewEffects}) {
-    ViewDesc view = sceneDesc(other);
-    view.shafts = shafts;
-    expectViewRefused(view, "ViewDesc::shafts|without");
+  Tables* clear = nullptr;
+  TableDesc clearDesc;
+  clearDesc.quality = Quality::Draft;
+  clearDesc.disabledEffects = kMie;
+  ASSERT_EQ(createTables(context(), preset("earth"), clearDesc, &clear), Status::Ok) << message();
+  for (const EffectFlags effects : {EffectFlags{0}, kGround | kDisc, kViewEffects}) {
+    ViewDesc desc = sceneDesc(effects);
+    desc.lightShafts.method = LightShaftMethod::LightVolume;
+    desc.lightShafts.shadowMapSize = 64;
+    for (const Tables* tables : {static_cast<const Tables*>(baked), static_cast<const Tables*>(clear)}) {
+      View* made = nullptr;
+      ASSERT_EQ(createView(context(), tables, desc, &made), Status::Ok) << message();
+      EXPECT_EQ(made->lightShafts().desc().disabledEffects,
+                effects | (tables == clear ? kMie : 0));
+      destroyView(made);
+    }
+    desc.disabledEffects |= kAir;
+    expectViewRefused(baked, desc, "ViewDesc::disabledEffects is 0x");
   }
-  ViewDesc same = sceneDesc(kViewEffects);
-  same.shafts = shafts;
-  View* made = nullptr;
-  EXPECT_EQ(createView(context(), same, &made), Status::Ok) << message();
-  destroyView(made);
-  destroyShafts(shafts);
-  desc.without = kAir;
-  expectRefused(createShafts(context(), desc, &shafts), "ShaftsDesc::without is 0x100");
+  destroyTables(clear);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // and draws.
 #include "atmosphere/bake/table_set.h"
 #include "atmosphere/sky/view_cost.h"
+#include "atmosphere/view/view_desc.h"
 #include "tests/shafts/shaft_fixture.h"
 
 namespace alpenglow::testing {
@@ -13,9 +14,9 @@ constexpr EffectFlags kMie = effectBit(Effect::Mie),
                       kSpace = effectBit(Effect::SpaceViews);
 constexpr VkExtent2D kExtent = {24, 16};
 
-/// An image of a draft's sky slice, and one of an air volume.
-constexpr uint64_t kSlice = uint64_t{48} * 64 * 16;
-constexpr uint64_t kVolume =
+/// An image of a draft's sky-view LUT, and one of an aerial-perspective LUT.
+constexpr uint64_t kSkyLut = uint64_t{48} * 64 * 16;
+constexpr uint64_t kAirLut =
     uint64_t{physics_f32::kAirColumns} * physics_f32::kAirRows * physics_f32::kAirDistances * 16;
 
 /// What making a view adds.
@@ -25,60 +26,55 @@ struct Added {
 
 class ViewCostsTest : public ShaftTest {
  protected:
-  static ResourceReport reportOf(Context* context) {
+  ResourceReport reportOf(Context* context) {
     finishFrames(context);
     ResourceReport now;
     resourceReport(context, &now);
     return now;
   }
 
-  /// In a context of its own that can't bake, with the shape of drafts for a slice.
-  void expectAdded(ViewDesc desc, bool sliced, const Added& expected) {
+  /// In a context of its own that can't bake.
+  void expectAdded(const ViewDesc& desc, const Added& expected) {
     ContextDesc plain = contextDesc();
     plain.capabilities = kCapabilitySky | kCapabilityAir;
     Context* own = nullptr;
     ASSERT_EQ(createContext(plain, &own), Status::Ok) << lastDiagnostic();
     TableDesc draft;
     draft.quality = Quality::Draft;
-    draft.disabledEffects = desc.without & kTableEffects;
+    draft.disabledEffects = desc.disabledEffects & kTableEffects;
     Tables* tables = nullptr;
     ASSERT_EQ(createTables(own, preset("earth"), draft, &tables), Status::Ok) << lastDiagnostic();
     const ResourceReport before = reportOf(own);
-    if (sliced) desc.skySlice = tables;
     View* made = nullptr;
-    EXPECT_EQ(createView(own, desc, &made), Status::Ok) << lastDiagnostic();
+    EXPECT_EQ(createView(own, tables, desc, &made), Status::Ok) << lastDiagnostic();
     const ResourceReport after = reportOf(own);
-    EXPECT_EQ(after.pipelines - before.pipelines, expected.pipelines) << desc.without;
+    EXPECT_EQ(after.pipelines - before.pipelines, expected.pipelines) << desc.disabledEffects;
     // Not one of them is another's.
-    EXPECT_EQ(after.shaderVariants - before.shaderVariants, expected.pipelines) << desc.without;
-    EXPECT_EQ(after.images - before.images, expected.images) << desc.without;
-    EXPECT_EQ(after.bytes - before.bytes, expected.bytes) << desc.without;
+    EXPECT_EQ(after.shaderVariants - before.shaderVariants, expected.pipelines) << desc.disabledEffects;
+    EXPECT_EQ(after.images - before.images, expected.images) << desc.disabledEffects;
+    EXPECT_EQ(after.bytes - before.bytes, expected.bytes) << desc.disabledEffects;
     EXPECT_EQ(after.buffers, before.buffers);
-    const bool air = desc.sceneDepth.view != VK_NULL_HANDLE;
-    const PlanCost told = sky::viewCost(tables->desc(), desc, sliced, air);
-    EXPECT_EQ(told.pipelines, expected.pipelines) << desc.without;
-    EXPECT_EQ(told.images, expected.images) << desc.without;
-    EXPECT_EQ(told.bytes, expected.bytes) << desc.without;
+    const PlanCost told =
+        sky::viewCost(tables->desc(), view::resolve(tables->desc(), desc).picture);
+    EXPECT_EQ(told.pipelines, expected.pipelines) << desc.disabledEffects;
+    EXPECT_EQ(told.images, expected.images) << desc.disabledEffects;
+    EXPECT_EQ(told.bytes, expected.bytes) << desc.disabledEffects;
     destroyView(made);
     destroyTables(tables);
     destroyContext(own);
   }
 
-  /// Of a host's depth, whose own view is as small as may be.
-  static ShaftSetup sceneSetup() {
-    ShaftSetup setup;
-    setup.shafts = setup.sliced = false;
-    setup.without = kViewEffects;
-    return setup;
-  }
-  const ShaftSetup scene_ = sceneSetup();
-
-  ViewDesc without(EffectFlags effects, bool always) {
+  ViewDesc without(EffectFlags effects, SkyMethod sky,
+                   AerialPerspective air = AerialPerspective::Off) {
     ViewDesc desc = viewDesc();
-    desc.without = effects;
-    desc.alwaysSliced = always;
+    desc.disabledEffects = effects;
+    desc.sky = sky;
+    desc.aerialPerspective = air;
+    desc.depth = DepthConvention::Reversed;
+    if (air != AerialPerspective::Off) desc.sceneDepthFormat = VK_FORMAT_D32_SFLOAT;
     return desc;
   }
+  static constexpr SkyMethod kLut = SkyMethod::Lut, kIntegrate = SkyMethod::Integrate;
 
   /// Of the frame that `record` records.
   ResourceReport frame(const std::function<void()>& record) {
@@ -94,76 +90,93 @@ class ViewCostsTest : public ShaftTest {
   }
 };
 
-// Six ways of pixels: two of ground, three of the disc, two without air. With a slice each comes
-// twice, but for those that always have one; the slice's own besides.
+// Six ways of pixels: two of ground, three of the disc, two without air; the LUT's own besides. With a
+// LUT nothing that integrates is compiled.
 TEST_F(ViewCostsTest, PixelsThatAViewNeverDrawsHaveNoPipeline) {
-  expectAdded(without(0, false), true, {13, 2, 2 * kSlice});
-  expectAdded(without(0, true), true, {7, 2, 2 * kSlice});
-  expectAdded(without(kGround, true), true, {5, 2, 2 * kSlice});
-  expectAdded(without(kDisc, true), true, {4, 2, 2 * kSlice});
-  expectAdded(without(kGround | kDisc, false), false, {2, 0, 0});
-  expectAdded(without(kViewEffects, false), false, {1, 0, 0});
+  expectAdded(without(0, kLut), {7, 2, 2 * kSkyLut});
+  expectAdded(without(0, kIntegrate), {6, 0, 0});
+  expectAdded(without(kGround, kLut), {5, 2, 2 * kSkyLut});
+  expectAdded(without(kDisc, kLut), {4, 2, 2 * kSkyLut});
+  expectAdded(without(kGround | kDisc, kIntegrate), {2, 0, 0});
+  expectAdded(without(kViewEffects, kIntegrate), {1, 0, 0});
+}
+
+// Of tables that have no LUT from space each comes twice, but for views that never go there.
+TEST_F(ViewCostsTest, StandardIntegratesAboveTheAir) {
+  Tables* standard = nullptr;
+  ASSERT_EQ(createTables(context(), preset("earth"), smallTables(), &standard), Status::Ok)
+      << message();
+  for (const EffectFlags effects : {EffectFlags{0}, kSpace}) {
+    const ViewDesc desc = without(effects, kLut);
+    const ResourceReport before = reportOf(context());
+    View* made = nullptr;
+    ASSERT_EQ(createView(context(), standard, desc, &made), Status::Ok) << message();
+    const uint64_t pipelines = reportOf(context()).pipelines - before.pipelines;
+    destroyView(made);
+    EXPECT_EQ(pipelines, effects == 0 ? 13u : 5u);
+    const PictureDesc picture = view::resolve(standard->desc(), desc).picture;
+    EXPECT_EQ(sky::viewCost(standard->desc(), picture).pipelines, pipelines);
+  }
+  destroyTables(standard);
 }
 
 // Cameras inside need half of the rays.
-TEST_F(ViewCostsTest, WithoutSpaceSlicesAndVolumesAreHalfAsLarge) {
-  expectAdded(without(kSpace, true), true, {5, 2, kSlice});
-  ViewDesc air = without(kViewEffects, true);
-  air.sceneDepth = rigOf(scene_, kExtent).scene;
-  expectAdded(air, true, {4, 5, kSlice + 3 * kVolume / 2});
+TEST_F(ViewCostsTest, WithoutSpaceLutsAreHalfAsLarge) {
+  expectAdded(without(kSpace, kLut), {5, 2, kSkyLut});
+  expectAdded(without(kViewEffects, kLut, AerialPerspective::On),
+              {4, 5, kSkyLut + 3 * kAirLut / 2});
 }
 
-TEST_F(ViewCostsTest, WhatTablesAreWithoutASliceIsWithout) {
-  expectAdded(without(kMie | kViewEffects, true), true, {2, 1, kSlice / 2});
-  expectAdded(without(kMultiple | kViewEffects, true), true, {2, 2, kSlice});
+TEST_F(ViewCostsTest, WhatTablesAreWithoutALutIsWithout) {
+  expectAdded(without(kMie | kViewEffects, kLut), {2, 1, kSkyLut / 2});
+  expectAdded(without(kMultiple | kViewEffects, kLut), {2, 2, kSkyLut});
 }
 
-// With a slice: the volume's three images, what fills it, what looks light up, what integrates.
-TEST_F(ViewCostsTest, AirInFrontOfASceneOwnsItsVolume) {
-  const SceneDepth scene = rigOf(scene_, kExtent).scene;
-  ViewDesc desc = without(kGround | kDisc, false);
-  desc.sceneDepth = scene;
-  expectAdded(desc, false, {2 + 1, 0, 0});
-  expectAdded(desc, true, {5 + 3, 2 + 3, 2 * kSlice + 3 * kVolume});
-  desc.alwaysSliced = true;
-  expectAdded(desc, true, {3 + 2, 2 + 3, 2 * kSlice + 3 * kVolume});
-  desc.sceneDepth = {};
-  expectAdded(desc, true, {3, 2, 2 * kSlice});
+// From its LUT: three images, what fills them, what looks light up.
+TEST_F(ViewCostsTest, AirInFrontOfASceneOwnsItsLut) {
+  constexpr EffectFlags kPlain = kGround | kDisc;
+  expectAdded(without(kPlain, kIntegrate, AerialPerspective::Integrate), {2 + 1, 0, 0});
+  expectAdded(without(kPlain, kLut, AerialPerspective::On),
+              {3 + 2, 2 + 3, 2 * kSkyLut + 3 * kAirLut});
+  expectAdded(without(kPlain, kLut, AerialPerspective::Integrate), {3 + 1, 2, 2 * kSkyLut});
+  expectAdded(without(kPlain, kIntegrate, AerialPerspective::On), {2 + 2, 3, 3 * kAirLut});
+  expectAdded(without(kPlain, kLut), {3, 2, 2 * kSkyLut});
 }
 
-// The map from the sun, blocks, the surface with and without a volume; map and sums; their frame
-// and blocks.
-TEST_F(ViewCostsTest, ShaftsAreAnObjectOfTheirOwn) {
+// The shadow map, blocks, the surface with and without a LUT; map; their frame and blocks. Sums follow
+// with the first frame, which knows the extent.
+TEST_F(ViewCostsTest, ShaftsHaveTheirOwn) {
   ContextDesc plain = contextDesc();
   plain.capabilities = kCapabilitySky | kCapabilityAir | kCapabilityShafts;
   Context* own = nullptr;
   ASSERT_EQ(createContext(plain, &own), Status::Ok) << lastDiagnostic();
-  ShaftsDesc desc;
-  desc.sceneDepth = rigOf(scene_, kExtent).scene;
-  desc.shadowMapSize = 64;
-  desc.without = kViewEffects;
+  TableDesc draft;
+  draft.quality = Quality::Draft;
+  Tables* tables = nullptr;
+  ASSERT_EQ(createTables(own, preset("earth"), draft, &tables), Status::Ok) << lastDiagnostic();
+  ViewDesc desc = without(kViewEffects, kIntegrate, AerialPerspective::Integrate);
   const ResourceReport start = reportOf(own);
-  Shafts* shafts = nullptr;
-  ASSERT_EQ(createShafts(own, desc, &shafts), Status::Ok) << lastDiagnostic();
+  View* sunny = nullptr;
+  ASSERT_EQ(createView(own, tables, desc, &sunny), Status::Ok) << lastDiagnostic();
   const ResourceReport made = reportOf(own);
-  EXPECT_EQ(made.pipelines - start.pipelines, 4u);
-  EXPECT_EQ(made.shaderVariants - start.shaderVariants, 4u);
-  EXPECT_EQ(made.images - start.images, 2u);
-  EXPECT_EQ(made.buffers - start.buffers, 2u);
-  EXPECT_GE(made.bytes - start.bytes, 64u * 64 * 4 + 24u * 16 * 16);
-  ViewDesc view = without(kViewEffects, false);
-  view.sceneDepth = desc.sceneDepth;
-  view.shafts = shafts;
+  EXPECT_EQ(made.pipelines - start.pipelines, 2u) << "Sky and air.";
+  EXPECT_EQ(made.images, start.images);
+  EXPECT_EQ(made.bytes, start.bytes);
+  desc.lightShafts.method = LightShaftMethod::LightVolume;
+  desc.lightShafts.shadowMapSize = 64;
   View* shaded = nullptr;
-  ASSERT_EQ(createView(own, view, &shaded), Status::Ok) << lastDiagnostic();
+  ASSERT_EQ(createView(own, tables, desc, &shaded), Status::Ok) << lastDiagnostic();
   const ResourceReport seen = reportOf(own);
-  EXPECT_EQ(seen.pipelines - made.pipelines, 2u) << "Sky and air.";
-  EXPECT_EQ(seen.images, made.images);
-  EXPECT_EQ(seen.bytes, made.bytes);
+  EXPECT_EQ(seen.pipelines - made.pipelines, 2u + 4u);
+  EXPECT_EQ(seen.shaderVariants - made.shaderVariants, 2u + 4u);
+  EXPECT_EQ(seen.images - made.images, 1u);
+  EXPECT_EQ(seen.buffers - made.buffers, 2u);
+  EXPECT_GE(seen.bytes - made.bytes, 64u * 64 * 4);
   destroyView(shaded);
-  destroyShafts(shafts);
+  destroyView(sunny);
   EXPECT_EQ(reportOf(own).images, start.images);
   EXPECT_EQ(reportOf(own).bytes, start.bytes);
+  destroyTables(tables);
   destroyContext(own);
 }
 
@@ -177,10 +190,16 @@ TEST_F(ViewCostsTest, AFrameRecordsNothingOfWhatIsOff) {
   plain.shafts = false;
   rigOf(plain, kExtent);
   rigOf(shaded, kExtent);
-  ViewDesc desc = without(kViewEffects, true);
-  desc.skySlice = baked;
-  View* const skyAlone = makeView(desc);
-  const ResourceReport withShafts = frame([&] { draw(shaded, looking); });
+  // What follows the extent of the scene's depth is made by the first frame.
+  const ResourceReport before = reportOf(context());
+  draw(shaded, looking);
+  const ResourceReport made = reportOf(context());
+  EXPECT_EQ(made.images - before.images, 1u) << "Sums.";
+  EXPECT_GE(made.bytes - before.bytes, 24u * 16 * 8);
+  FrameState other = looking;
+  other.camera.position_m[0] += 1.0;  // No LUT serves on.
+  View* const skyAlone = makeView(without(kViewEffects, kLut), baked);
+  const ResourceReport withShafts = frame([&] { draw(shaded, other); });
   const ResourceReport withAir = frame([&] { draw(plain, looking); });
   const ResourceReport sky = frame([&] {
     recordSlice(skyAlone, baked, looking);
@@ -188,7 +207,7 @@ TEST_F(ViewCostsTest, AFrameRecordsNothingOfWhatIsOff) {
   });
   EXPECT_EQ(sky.dispatches, 1u);
   EXPECT_EQ(sky.draws, 1u);
-  EXPECT_EQ(withAir.dispatches - sky.dispatches, 1u) << "The volume.";
+  EXPECT_EQ(withAir.dispatches - sky.dispatches, 1u) << "The LUT of aerial perspective.";
   EXPECT_EQ(withAir.draws - sky.draws, 1u) << "The air.";
   EXPECT_EQ(withShafts.dispatches - withAir.dispatches, 1u) << "Blocks.";
   EXPECT_EQ(withShafts.draws - withAir.draws, 2u) << "Map and surface.";

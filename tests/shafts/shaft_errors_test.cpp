@@ -1,5 +1,7 @@
 // What light shafts refuse, each with its sentence, and that the object works as before; and what
 // they don't cost when they are off.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -24,12 +26,16 @@ class ShaftErrorsTest : public ShaftTest {
     EXPECT_TRUE(hasAll(message(), parts)) << parts << ": " << message();
     message().clear();
   }
-  ShaftsDesc goodDesc(const ShaftRig& rig) const {
-    ShaftsDesc desc;
-    desc.sceneDepth = rig.scene;
-    desc.adjacency = true;
-    desc.shadowMapSize = 64;
+  ViewDesc goodDesc() const {
+    ViewDesc desc = viewDescOf(setup_);
+    desc.lightShafts.shadowMapSize = 64;
     return desc;
+  }
+  void expectViewRefused(const Tables* tables, const ViewDesc& desc, Status status,
+                         const char* parts) {
+    View* made = reinterpret_cast<View*>(uintptr_t{1});
+    expectRefused(createView(context(), tables, desc, &made), status, parts);
+    EXPECT_EQ(made, nullptr) << parts;
   }
   ShaftSetup setup_;
   FrameState draw_;
@@ -39,160 +45,158 @@ TEST_F(ShaftErrorsTest, BadDescriptionsAreRefusedWithTheValue) {
   struct Case {
     const char* parts;
     Status status;
-    std::function<void(ShaftsDesc&)> spoil;
+    std::function<void(ViewDesc&, LightShaftDesc&)> spoil;
   };
   constexpr Status kBad = Status::InvalidArgument, kNot = Status::Unsupported;
   const Case cases[] = {
-      {"method 7", kBad, [](ShaftsDesc& d) { d.method = static_cast<LightShaftMethod>(7); }},
-      {"depth 9", kBad, [](ShaftsDesc& d) { d.depth = static_cast<DepthConvention>(9); }},
-      {"projection 8", kBad, [](ShaftsDesc& d) { d.projection = static_cast<Projection>(8); }},
-      {"Fisheye", kNot, [](ShaftsDesc& d) { d.projection = Projection::Fisheye; }},
-      {"shadowMapSize is 15", kBad, [](ShaftsDesc& d) { d.shadowMapSize = 15; }},
-      {"shadowMapSize is 4000000000", kBad, [](ShaftsDesc& d) { d.shadowMapSize = 4000000000u; }},
-      {"meshSize is 1,|64", kBad, [](ShaftsDesc& d) { d.meshSize = 1; }},
-      {"meshSize is 65,|64", kBad, [](ShaftsDesc& d) { d.meshSize = 65; }},
-      {"multipleLoss is 1.5", kBad, [](ShaftsDesc& d) { d.multipleLoss = 1.5; }},
-      {"multipleLoss is nan", kBad, [](ShaftsDesc& d) { d.multipleLoss = std::nan(""); }},
-      {"samples is 4097", kBad, [](ShaftsDesc& d) { d.samples = 4097; }},
-      {"vertexStride 14", kBad, [](ShaftsDesc& d) { d.vertexStride = 14; }},
-      {"vertexOffset 4", kBad, [](ShaftsDesc& d) { d.vertexOffset = 4; }},
-      {"vertexOffset 4294967292", kBad, [](ShaftsDesc& d) { d.vertexOffset = 4294967292u; }},
-      {"sceneDepth has no view", kBad, [](ShaftsDesc& d) { d.sceneDepth.view = VK_NULL_HANDLE; }},
-      {"sceneDepth|0 x 16", kBad, [](ShaftsDesc& d) { d.sceneDepth.extent.width = 0; }},
-      {"sceneDepth|24 x 4000000000", kBad,
-       [](ShaftsDesc& d) { d.sceneDepth.extent.height = 4000000000u; }},
-      {"sceneDepth|VkFormat 37", kNot,
-       [](ShaftsDesc& d) { d.sceneDepth.format = VK_FORMAT_R8G8B8A8_UNORM; }},
+      {"LightShaftDesc::method is 7", kBad,
+       [](ViewDesc&, LightShaftDesc& s) { s.method = static_cast<LightShaftMethod>(7); }},
+      {"depth 9", kBad,
+       [](ViewDesc& d, LightShaftDesc&) { d.depth = static_cast<DepthConvention>(9); }},
+      {"projection 8", kBad,
+       [](ViewDesc& d, LightShaftDesc&) { d.projection = static_cast<Projection>(8); }},
+      {"aerialPerspective|fisheye", kBad,
+       [](ViewDesc& d, LightShaftDesc&) { d.projection = Projection::Fisheye; }},
+      {"shadowMapSize is 15", kBad, [](ViewDesc&, LightShaftDesc& s) { s.shadowMapSize = 15; }},
+      {"shadowMapSize is 4000000000", kBad,
+       [](ViewDesc&, LightShaftDesc& s) { s.shadowMapSize = 4000000000u; }},
+      {"meshSize is 1,|64", kBad, [](ViewDesc&, LightShaftDesc& s) { s.meshSize = 1; }},
+      {"meshSize is 65,|64", kBad, [](ViewDesc&, LightShaftDesc& s) { s.meshSize = 65; }},
+      {"multipleLoss is 1.5", kBad, [](ViewDesc&, LightShaftDesc& s) { s.multipleLoss = 1.5; }},
+      {"multipleLoss is nan", kBad,
+       [](ViewDesc&, LightShaftDesc& s) { s.multipleLoss = std::nan(""); }},
+      {"stepCount is 4097", kBad, [](ViewDesc&, LightShaftDesc& s) { s.stepCount = 4097; }},
+      {"LightShaftDesc|vertexStride 14", kBad,
+       [](ViewDesc&, LightShaftDesc& s) { s.vertexStride = 14; }},
+      {"LightShaftDesc|vertexOffset 4", kBad,
+       [](ViewDesc&, LightShaftDesc& s) { s.vertexOffset = 4; }},
+      {"vertexOffset 4294967292", kBad,
+       [](ViewDesc&, LightShaftDesc& s) { s.vertexOffset = 4294967292u; }},
+      {"sceneDepthFormat is VkFormat 37", kNot,
+       [](ViewDesc& d, LightShaftDesc&) { d.sceneDepthFormat = VK_FORMAT_R8G8B8A8_UNORM; }},
+      {"aerialPerspective|VkFormat 0", kBad,
+       [](ViewDesc& d, LightShaftDesc&) { d.depthFormat = VK_FORMAT_UNDEFINED; }},
+      {"aerialPerspective|4 samples", kBad, [](ViewDesc& d, LightShaftDesc&) { d.samples = 4; }},
+      {"lightShafts|ViewDesc::aerialPerspective", kBad,
+       [](ViewDesc& d, LightShaftDesc&) { d.aerialPerspective = AerialPerspective::Off; }},
       {"adjacency is false", kBad,
-       [](ShaftsDesc& d) {
-         d.method = LightShaftMethod::ShadowVolume;
-         d.adjacency = false;
+       [](ViewDesc&, LightShaftDesc& s) {
+         s.method = LightShaftMethod::ShadowVolume;
+         s.adjacency = false;
        }},
+      // Reserved for later versions.
+      {"lightMask|version", kNot, [](ViewDesc&, LightShaftDesc& s) { s.lightMask = 2; }},
+      {"lightMask|version", kNot, [](ViewDesc&, LightShaftDesc& s) { s.lightMask = 3; }},
+      {"listLength|version", kNot, [](ViewDesc&, LightShaftDesc& s) { s.listLength = 8; }},
+      {"hostPipelines|version", kNot, [](ViewDesc&, LightShaftDesc& s) { s.hostPipelines = true; }},
   };
-  const ShaftRig& rig = rigOf(setup_, kExtent);
+  Tables* standard = nullptr;
+  ASSERT_EQ(createTables(context(), preset("earth"), smallTables(), &standard), Status::Ok);
+  finishFrames(context());
   ResourceReport start, end;
   resourceReport(context(), &start);
   for (const Case& bad : cases) {
-    ShaftsDesc desc = goodDesc(rig);
-    bad.spoil(desc);
-    Shafts* made = reinterpret_cast<Shafts*>(uintptr_t{1});
-    expectRefused(createShafts(context(), desc, &made), bad.status, bad.parts);
-    EXPECT_EQ(made, nullptr) << bad.parts;
+    ViewDesc desc = goodDesc();
+    bad.spoil(desc, desc.lightShafts);
+    expectViewRefused(baked, desc, bad.status, bad.parts);
   }
+  expectViewRefused(standard, goodDesc(), kBad, "lightShafts|Solver::Standard");
   resourceReport(context(), &end);
+  destroyTables(standard);
   EXPECT_EQ(end.pipelines, start.pipelines);
   EXPECT_EQ(end.images, start.images);
   EXPECT_EQ(end.bytes, start.bytes);
-  EXPECT_EQ(createShafts(nullptr, goodDesc(rig), nullptr), Status::InvalidArgument);
-}
-
-TEST_F(ShaftErrorsTest, ViewsNeedShaftsOfTheirOwnPicture) {
-  ShaftRig& rig = rigOf(setup_, kExtent);
-  ViewDesc good;
-  good.colorFormat = kShaftColor;
-  good.depthFormat = setup_.depthFormat;
-  good.depth = setup_.depth;
-  good.sceneDepth = rig.scene;
-  good.shafts = rig.shafts;
-  struct Case {
-    const char* parts;
-    std::function<void(ViewDesc&)> spoil;
-  };
-  const Case cases[] = {
-      {"made for another picture", [](ViewDesc& d) { d.depth = DepthConvention::Standard; }},
-      {"made for another picture", [](ViewDesc& d) { d.projection = Projection::Orthographic; }},
-      {"made for another picture", [](ViewDesc& d) { d.sceneDepth.extent.width = 20; }},
-      {"made for another picture", [](ViewDesc& d) { d.sceneDepth = SceneDepth{}; }},
-      {"Solver::Standard", [](ViewDesc& d) { d.solver = Solver::Standard; }},
-      {"sceneDepth|fisheye", [](ViewDesc& d) { d.projection = Projection::Fisheye; }},
-      {"sceneDepth has 0 x 16", [](ViewDesc& d) { d.sceneDepth.extent.width = 0; }},
-      {"sceneDepth|4 samples", [](ViewDesc& d) { d.samples = VK_SAMPLE_COUNT_4_BIT; }},
-  };
-  for (const Case& bad : cases) {
-    ViewDesc desc = good;
-    bad.spoil(desc);
-    View* made = nullptr;
-    expectRefused(createView(context(), desc, &made), Status::InvalidArgument, bad.parts);
-    EXPECT_EQ(made, nullptr);
-  }
+  EXPECT_EQ(createView(nullptr, baked, goodDesc(), nullptr), Status::InvalidArgument);
+  // The one light that there is may be named.
+  ViewDesc desc = goodDesc();
+  desc.lightShafts.lightMask = 1;
+  View* made = nullptr;
+  EXPECT_EQ(createView(context(), baked, desc, &made), Status::Ok) << message();
+  destroyView(made);
 }
 
 TEST_F(ShaftErrorsTest, AnotherContextIsRefused) {
-  ShaftRig& rig = rigOf(setup_, kExtent);
   Context* other = nullptr;
   ContextDesc all = contextDesc();
   all.capabilities = kCapabilityBake | kCapabilitySky | kCapabilityAir | kCapabilityShafts;
   ASSERT_EQ(createContext(all, &other), Status::Ok);
-  ViewDesc desc;
-  desc.colorFormat = kShaftColor;
-  desc.depthFormat = setup_.depthFormat;
-  desc.depth = setup_.depth;
-  desc.sceneDepth = rig.scene;
-  desc.shafts = rig.shafts;
   View* made = nullptr;
-  EXPECT_EQ(createView(other, desc, &made), Status::InvalidArgument);
-  EXPECT_TRUE(hasAll(lastDiagnostic(), "another context")) << lastDiagnostic();
-  Shafts* shafts = nullptr;
-  EXPECT_EQ(createShafts(other, goodDesc(rig), &shafts), Status::Ok);
-  run([&](VkCommandBuffer c) {
-    EXPECT_EQ(recordSunMap(shafts, c, draw_.sun.direction, casters()), Status::Ok);
-    EXPECT_EQ(recordShafts(shafts, rig.view, c, baked, draw_, casters()),
-              Status::InvalidArgument);
-    return true;
-  });
-  EXPECT_TRUE(hasAll(lastDiagnostic(), "recordShafts|others")) << lastDiagnostic();
-  destroyShafts(shafts);
+  EXPECT_EQ(createView(other, baked, goodDesc(), &made), Status::InvalidArgument);
+  EXPECT_TRUE(hasAll(lastDiagnostic(), "createView|another context")) << lastDiagnostic();
+  Tables* own = nullptr;
+  TableDesc draft;
+  draft.quality = Quality::Draft;
+  ASSERT_EQ(createTables(other, parameters, draft, &own), Status::Ok);
+  ASSERT_EQ(createView(other, own, goodDesc(), &made), Status::Ok) << lastDiagnostic();
+  ShaftRig& rig = rigOf(setup_, kExtent);
+  FrameDesc frame = frameOf(rig, draw_);
+  EXPECT_EQ(beginFrame(made, frame, nullptr), Status::InvalidArgument);
+  EXPECT_TRUE(hasAll(lastDiagnostic(), "FrameDesc::tables|another context")) << lastDiagnostic();
+  destroyView(made);
+  destroyTables(own);
   destroyContext(other);
 
   ContextDesc without = contextDesc();
-  without.capabilities = kCapabilityBake | kCapabilitySky;
+  without.capabilities = kCapabilityBake | kCapabilitySky | kCapabilityAir;
   ASSERT_EQ(createContext(without, &other), Status::Ok);
-  EXPECT_EQ(createShafts(other, goodDesc(rig), &shafts), Status::Unsupported);
-  EXPECT_TRUE(hasAll(lastDiagnostic(), "createShafts|kCapabilityShafts")) << lastDiagnostic();
+  ASSERT_EQ(createTables(other, parameters, draft, &own), Status::Ok);
+  EXPECT_EQ(createView(other, own, goodDesc(), &made), Status::Unsupported);
+  EXPECT_TRUE(hasAll(lastDiagnostic(), "lightShafts|kCapabilityShafts")) << lastDiagnostic();
+  destroyTables(own);
   destroyContext(other);
 }
 
 TEST_F(ShaftErrorsTest, BadCallsRecordNothing) {
   const ShaftPicture before = draw(setup_, draw_);
   ShaftRig& rig = rigOf(setup_, kExtent);
+  View* const view = rig.view;
   constexpr Status kBad = Status::InvalidArgument;
   ResourceReport start, end;
   resourceReport(context(), &start);
+  const auto refuse = [&](const FrameDesc& frame, const char* parts) {
+    expectRefused(beginFrame(view, frame, nullptr), kBad, parts);
+    // Said once.
+    run([&](VkCommandBuffer c) {
+      EXPECT_EQ(alpenglow::recordLuts(view, c), Status::NotReady);
+      EXPECT_EQ(recordShadowMap(view, c), Status::NotReady);
+      EXPECT_EQ(recordLightShafts(view, c), Status::NotReady);
+      EXPECT_EQ(recordAerialPerspective(view, c), Status::NotReady);
+      EXPECT_EQ(alpenglow::recordSky(view, c), Status::NotReady);
+      return true;
+    });
+    EXPECT_EQ(message(), "") << parts;
+  };
+  const FrameDesc good = frameOf(rig, draw_);
+  FrameDesc bad = good;
+  bad.casters.bounds.halfExtents[1] = std::numeric_limits<double>::infinity();
+  refuse(bad, "Casters::bounds");
+  bad = good;
+  bad.casters.bounds = Box{};
+  refuse(bad, "Casters::bounds|(0, 0, 0)");
+  bad = good;
+  std::copy_n(std::array{0.0, 0.5, 0.0}.data(), 3, bad.lights[0].direction);
+  refuse(bad, "Light::direction|0.5");
+  bad = good;
+  bad.cameras[0].viewport.offset = {4, 0};
+  refuse(bad, "Camera::viewport|(28, 16)|24 x 16");
+  bad = good;
+  bad.cameras[0].nearPlane = 0.0;
+  refuse(bad, "Camera::nearPlane|0");
+  bad = good;
+  bad.cameras[0].fov = -1.0;
+  refuse(bad, "Camera::fov|-1");
+  bad = good;
+  bad.sceneDepth.view = VK_NULL_HANDLE;
+  refuse(bad, "FrameDesc::sceneDepth has no view");
+  bad = good;
+  bad.sceneDepth.extent.width = 0;
+  refuse(bad, "FrameDesc::sceneDepth|0 x 16");
+  EXPECT_EQ(beginFrame(nullptr, good, nullptr), kBad);
   run([&](VkCommandBuffer c) {
-    const double* sun = draw_.sun.direction;
-    const auto shaftsWith = [&](const FrameState& d, const Casters& casters) {
-      return recordShafts(rig.shafts, rig.view, c, baked, d, casters);
-    };
-    Casters bad = casters();
-    bad.draw = nullptr;
-    expectRefused(recordSunMap(rig.shafts, c, sun, bad), kBad, "Casters::draw is null");
-    expectRefused(shaftsWith(draw_, bad), kBad, "Casters::draw is null");
-    bad = casters();
-    bad.bounds.halfAxes_m[1][2] = std::numeric_limits<double>::infinity();
-    expectRefused(recordSunMap(rig.shafts, c, sun, bad), kBad, "Casters::bounds");
-    bad = casters();
-    bad.bounds = Box{};
-    expectRefused(shaftsWith(draw_, bad), kBad, "Casters::bounds|(0, 0, 0)");
-    const double nowhere[3] = {0.0, 0.5, 0.0};
-    expectRefused(recordSunMap(rig.shafts, c, nowhere, casters()), kBad, "sunDirection|0.5");
-    FrameState d = drawFrom({50, 0, 0}, 90, 15, 60, kExtent, 36, 200);
-    expectRefused(shaftsWith(d, casters()), kBad, "recordSunMap was called last for");
-    d = draw_;
-    d.viewport.offset = {4, 0};
-    expectRefused(shaftsWith(d, casters()), kBad, "Camera::viewport|(28, 16)|24 x 16");
-    d = draw_;
-    d.depth.near_m = 0.0;
-    expectRefused(shaftsWith(d, casters()), kBad, "Camera::nearPlane|0");
-    d = draw_;
-    d.camera.fov = 0.0;
-    expectRefused(shaftsWith(d, casters()), kBad, "Camera::fov");
-    // Shadows of another camera.
-    d = draw_;
-    d.camera.position_m[0] += 1.0;
-    expectRefused(recordSky(rig.view, c, baked, d), kBad, "recordShafts was not called");
-    expectRefused(recordAir(rig.view, c, baked, d), kBad, "recordShafts was not called");
-    EXPECT_EQ(recordSunMap(nullptr, c, sun, casters()), kBad);
-    EXPECT_EQ(recordShafts(rig.shafts, nullptr, c, baked, d, casters()), kBad);
+    EXPECT_EQ(recordShadowMap(nullptr, c), kBad);
+    EXPECT_EQ(recordLightShafts(nullptr, c), kBad);
+    expectRefused(recordShadowMap(view, VK_NULL_HANDLE), kBad, "recordShadowMap|null");
+    expectRefused(recordLightShafts(view, VK_NULL_HANDLE), kBad, "recordLightShafts|null");
     return true;
   });
   resourceReport(context(), &end);
@@ -202,15 +206,65 @@ TEST_F(ShaftErrorsTest, BadCallsRecordNothing) {
   EXPECT_EQ(after.light.data, before.light.data);
 }
 
-TEST_F(ShaftErrorsTest, AirNeedsAFormatThatBlends) {
-  ViewDesc desc;
-  desc.colorFormat = VK_FORMAT_R32G32B32A32_UINT;
-  desc.sceneDepth = rigOf(setup_, kExtent).scene;
-  View* view = nullptr;
-  expectRefused(createView(context(), desc, &view), Status::Unsupported, "VkFormat 107|blend");
+// Each function wants what the frame's earlier ones record.
+TEST_F(ShaftErrorsTest, FunctionsAreCalledInTheirOrder) {
+  constexpr Status kBad = Status::InvalidArgument;
+  ShaftRig& rig = rigOf(setup_, kExtent);
+  draw(setup_, draw_);
+  View* const view = rig.view;
+  finishFrames(context());
+  // Of a frame that has not begun.
+  run([&](VkCommandBuffer c) {
+    expectRefused(alpenglow::recordLuts(view, c), kBad, "recordLuts|beginFrame");
+    expectRefused(recordShadowMap(view, c), kBad, "recordShadowMap|beginFrame");
+    expectRefused(recordLightShafts(view, c), kBad, "recordLightShafts|beginFrame");
+    expectRefused(recordAerialPerspective(view, c), kBad, "recordAerialPerspective|beginFrame");
+    expectRefused(alpenglow::recordSky(view, c), kBad, "recordSky|beginFrame");
+    return true;
+  });
+  FrameState moved = drawFrom({51, 0, 0}, 90, 15, 60, kExtent, 36, 200);
+  // The last picture's shadow map, shafts and LUTs are another frame's; those of casters without a
+  // version always are.
+  for (const FrameState& state : {draw_, moved}) {
+    ResourceReport start, end;
+    resourceReport(context(), &start);
+    ASSERT_EQ(beginFrame(view, frameOf(rig, state), nullptr), Status::Ok) << message();
+    run([&](VkCommandBuffer c) {
+      expectRefused(recordLightShafts(view, c), kBad, "recordLightShafts|recordShadowMap");
+      if (state.sun.direction[0] == draw_.sun.direction[0]) return true;
+      expectRefused(recordAerialPerspective(view, c), kBad, "recordAerialPerspective|recordLuts");
+      expectRefused(alpenglow::recordSky(view, c), kBad, "recordSky|recordLuts");
+      return true;
+    });
+    run([&](VkCommandBuffer c) {
+      EXPECT_EQ(alpenglow::recordLuts(view, c), Status::Ok);
+      expectRefused(recordAerialPerspective(view, c), kBad,
+                    "recordAerialPerspective|recordLightShafts");
+      expectRefused(alpenglow::recordSky(view, c), kBad, "recordSky|recordLightShafts");
+      return true;
+    });
+    resourceReport(context(), &end);
+    EXPECT_EQ(end.draws, start.draws);
+  }
+  // The LUTs are those of `moved`: no map of them is asked for again, but shafts want theirs.
+  ASSERT_EQ(beginFrame(view, frameOf(rig, draw_), nullptr), Status::Ok) << message();
+  run([&](VkCommandBuffer c) {
+    EXPECT_EQ(recordShadowMap(view, c), Status::Ok);
+    expectRefused(recordLightShafts(view, c), kBad, "recordLightShafts|recordLuts");
+    EXPECT_EQ(alpenglow::recordLuts(view, c), Status::Ok);
+    EXPECT_EQ(recordLightShafts(view, c), Status::Ok) << message();
+    return true;
+  });
 }
 
-TEST_F(ShaftErrorsTest, OnlyThePaperNeedsGeometryShaders) {
+TEST_F(ShaftErrorsTest, AirNeedsAFormatThatBlends) {
+  ViewDesc desc = goodDesc();
+  desc.lightShafts = {};
+  desc.colorFormat = VK_FORMAT_R32G32B32A32_UINT;
+  expectViewRefused(baked, desc, Status::Unsupported, "colorFormat|VkFormat 107");
+}
+
+TEST_F(ShaftErrorsTest, OnlyShadowVolumesNeedGeometryShaders) {
   Requirements exact, paper;
   const auto query = [&](CapabilityFlags wanted, Requirements* out) {
     ContextDesc desc = contextDesc();
@@ -227,100 +281,92 @@ TEST_F(ShaftErrorsTest, OnlyThePaperNeedsGeometryShaders) {
   desc.capabilities = kCapabilitySky | kCapabilityAir | kCapabilityShafts;
   Context* without = nullptr;
   ASSERT_EQ(createContext(desc, &without), Status::Ok);
-  ShaftsDesc shafts = goodDesc(rigOf(setup_, kExtent));
-  Shafts* made = nullptr;
-  EXPECT_EQ(createShafts(without, shafts, &made), Status::Ok) << lastDiagnostic();
-  destroyShafts(made);
-  shafts.method = LightShaftMethod::ShadowVolume;
-  EXPECT_EQ(createShafts(without, shafts, &made), Status::Unsupported);
-  EXPECT_TRUE(hasAll(lastDiagnostic(), "Paper|kCapabilityShadowVolumes")) << lastDiagnostic();
+  TableDesc draft;
+  draft.quality = Quality::Draft;
+  Tables* own = nullptr;
+  ASSERT_EQ(createTables(without, parameters, draft, &own), Status::Ok) << lastDiagnostic();
+  ViewDesc view = goodDesc();
+  View* made = nullptr;
+  EXPECT_EQ(createView(without, own, view, &made), Status::Ok) << lastDiagnostic();
+  destroyView(made);
+  view.lightShafts.method = LightShaftMethod::ShadowVolume;
+  EXPECT_EQ(createView(without, own, view, &made), Status::Unsupported);
+  EXPECT_TRUE(hasAll(lastDiagnostic(), "ShadowVolume|kCapabilityShadowVolumes"))
+      << lastDiagnostic();
+  destroyTables(own);
   destroyContext(without);
 }
 
-TEST_F(ShaftErrorsTest, AMapComesFirst) {
-  ShaftRig& rig = rigOf(setup_, kExtent);
-  Shafts* fresh = nullptr;
-  ASSERT_EQ(createShafts(context(), goodDesc(rig), &fresh), Status::Ok);
-  ViewDesc desc;
-  desc.colorFormat = kShaftColor;
-  desc.depthFormat = setup_.depthFormat;
-  desc.sceneDepth = rig.scene;
-  desc.shafts = fresh;
-  View* view = nullptr;
-  ASSERT_EQ(createView(context(), desc, &view), Status::Ok) << message();
-  run([&](VkCommandBuffer c) {
-    expectRefused(recordShafts(fresh, rig.view, c, baked, draw_, casters()),
-                  Status::InvalidArgument, "made with others");
-    expectRefused(recordShafts(fresh, view, c, baked, draw_, casters()),
-                  Status::InvalidArgument, "recordSunMap");
-    EXPECT_EQ(recordSunMap(fresh, c, draw_.sun.direction, casters()), Status::Ok);
-    EXPECT_EQ(recordShafts(fresh, view, c, baked, draw_, casters()), Status::Ok);
-    return true;
-  });
-  destroyView(view);
-  destroyShafts(fresh);
-}
-
-/// What making an object added.
+/// What a view with shafts has beyond one without: made by createView, and by the first frame.
 struct Added {
-  uint64_t pipelines, images, buffers;
+  uint64_t pipelines, images, buffers, frameImages;
 };
 
 TEST_F(ShaftErrorsTest, NothingIsMadeOfAMethodThatIsNotChosen) {
   const ShaftRig& rig = rigOf(setup_, kExtent);
-  const auto addedBy = [&](LightShaftMethod method) {
-    ShaftsDesc desc = goodDesc(rig);
-    desc.method = method;
-    ResourceReport start, end;
+  const auto madeBy = [&](LightShaftMethod method) {
+    ViewDesc desc = goodDesc();
+    desc.lightShafts.method = method;
+    finishFrames(context());
+    ResourceReport start, made, begun;
     resourceReport(context(), &start);
-    Shafts* shafts = nullptr;
-    EXPECT_EQ(createShafts(context(), desc, &shafts), Status::Ok) << message();
-    resourceReport(context(), &end);
-    destroyShafts(shafts);
-    return Added{end.pipelines - start.pipelines, end.images - start.images,
-                 end.buffers - start.buffers};
+    View* view = nullptr;
+    EXPECT_EQ(createView(context(), baked, desc, &view), Status::Ok) << message();
+    resourceReport(context(), &made);
+    EXPECT_EQ(beginFrame(view, frameOf(rig, draw_), nullptr), Status::Ok) << message();
+    resourceReport(context(), &begun);
+    EXPECT_EQ(begun.pipelines, made.pipelines);
+    EXPECT_EQ(begun.buffers, made.buffers);
+    destroyView(view);
+    return Added{made.pipelines - start.pipelines, made.images - start.images,
+                 made.buffers - start.buffers, begun.images - made.images};
   };
-  // Exact: the map, blocks, the surface with and without an air volume; sums.
-  const Added exact = addedBy(LightShaftMethod::LightVolume);
-  EXPECT_EQ(exact.pipelines, 4u);
-  EXPECT_EQ(exact.images, 2u);
+  const Added off = madeBy(LightShaftMethod::Off);
+  EXPECT_EQ(off.buffers, 0u);
+  EXPECT_EQ(off.frameImages, 0u);
+  // The map, blocks, the surface with and without a LUT; sums.
+  const Added exact = madeBy(LightShaftMethod::LightVolume);
+  EXPECT_EQ(exact.pipelines - off.pipelines, 4u);
+  EXPECT_EQ(exact.images - off.images, 1u);
   EXPECT_EQ(exact.buffers, 2u);
-  // Paper: volumes; sums and bounds, no map.
-  const Added paper = addedBy(LightShaftMethod::ShadowVolume);
-  EXPECT_EQ(paper.pipelines, 1u);
-  EXPECT_EQ(paper.images, 2u);
+  EXPECT_EQ(exact.frameImages, 1u);
+  // Volumes; sums and bounds, no map.
+  const Added paper = madeBy(LightShaftMethod::ShadowVolume);
+  EXPECT_EQ(paper.pipelines - off.pipelines, 1u);
+  EXPECT_EQ(paper.images, off.images);
   EXPECT_EQ(paper.buffers, 1u);
-  // March: the map alone, no geometry shader.
-  const Added march = addedBy(LightShaftMethod::RayMarch);
-  EXPECT_EQ(march.pipelines, 1u);
-  EXPECT_EQ(march.images, 1u);
+  EXPECT_EQ(paper.frameImages, 2u);
+  // The map alone, no geometry shader.
+  const Added march = madeBy(LightShaftMethod::RayMarch);
+  EXPECT_EQ(march.pipelines - off.pipelines, 1u);
+  EXPECT_EQ(march.images - off.images, 1u);
   EXPECT_EQ(march.buffers, 1u);
+  EXPECT_EQ(march.frameImages, 0u);
 }
 
 TEST_F(ShaftErrorsTest, AViewWithoutAirMakesNoneOfIt) {
-  const ShaftRig& rig = rigOf(setup_, kExtent);
-  const auto pipelinesOf = [&](const SceneDepth& scene, uint64_t* images) {
-    ViewDesc desc;
-    desc.colorFormat = kShaftColor;
-    desc.depthFormat = setup_.depthFormat;
-    desc.depth = setup_.depth;
-    desc.sceneDepth = scene;
-    desc.skySlice = baked;
+  const auto pipelinesOf = [&](AerialPerspective air, uint64_t* images) {
+    ViewDesc desc = goodDesc();
+    desc.lightShafts = {};
+    desc.aerialPerspective = air;
     ResourceReport start, end;
     resourceReport(context(), &start);
     View* made = nullptr;
-    EXPECT_EQ(createView(context(), desc, &made), Status::Ok) << message();
+    EXPECT_EQ(createView(context(), baked, desc, &made), Status::Ok) << message();
     resourceReport(context(), &end);
     destroyView(made);
     *images = end.images - start.images;
     return end.pipelines - start.pipelines;
   };
-  uint64_t images = 0, airImages = 0;
-  const uint64_t without = pipelinesOf(SceneDepth{}, &images);
-  const uint64_t with = pipelinesOf(rig.scene, &airImages);
-  // Air by integration, from the volume, and the volume's own.
-  EXPECT_EQ(with, without + 3);
+  uint64_t images = 0, airImages = 0, integratedImages = 0;
+  const uint64_t without = pipelinesOf(AerialPerspective::Off, &images);
+  const uint64_t with = pipelinesOf(AerialPerspective::On, &airImages);
+  const uint64_t integrated = pipelinesOf(AerialPerspective::Integrate, &integratedImages);
+  // Air from its LUT, and the LUT's own; or by integration.
+  EXPECT_EQ(with, without + 2);
   EXPECT_EQ(airImages, images + 3);
+  EXPECT_EQ(integrated, without + 1);
+  EXPECT_EQ(integratedImages, images);
 }
 
 }  // namespace

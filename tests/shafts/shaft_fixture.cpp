@@ -276,10 +276,10 @@ Status ShaftTest::recordLight(VkCommandBuffer commands, const ShaftSetup& setup,
   return status;
 }
 
-ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const FrameState& draw) {
+ShaftPicture ShaftTest::draw(const ShaftSetup& setup, const FrameState& draw, View* with) {
   const VkExtent2D size = draw.viewport.extent;
   ShaftRig& target = rigOf(setup, size);
-  View* view = target.view;
+  View* view = with != nullptr ? with : target.view;
   target.used = 0;
 
   ShaftPicture out;

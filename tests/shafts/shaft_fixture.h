@@ -54,7 +54,8 @@ class ShaftTest : public SkyTest {
   FrameState drawFrom(const Vec& local, double heading, double pitch, double fov, VkExtent2D extent,
                    double sunElevation, double sunAzimuth);
   /// With objects that are made at the first use of such a setup and serve all further ones.
-  ShaftPicture draw(const ShaftSetup& setup, const FrameState& draw);
+  /// `with`: another view of the same setup, which may be of another size.
+  ShaftPicture draw(const ShaftSetup& setup, const FrameState& draw, View* with = nullptr);
   ShaftRig& rigOf(const ShaftSetup& setup, VkExtent2D size);
   /// The host's depth, which its view reads from then on.
   Status recordDepth(VkCommandBuffer commands, const ShaftSetup& setup, const FrameState& draw,

@@ -220,15 +220,15 @@ TEST(TerrainMesh, LiesWhereItsLatitudeLongitudeAndHeadingSay) {
   Parameters earth;
   ASSERT_EQ(findPreset("earth", &earth, {}), Status::Ok);
   const auto camera = [&](double heading) {
-    return cameraFromGeodetic(earth, patch.desc.latitude, patch.desc.longitude, 0.0, heading, 0.0,
-                              0.0, 1.0);
+    return cameraAt(earth, World{}, patch.desc.latitude, patch.desc.longitude, 0.0, heading, 0.0,
+                    0.0);
   };
   const auto vector = [](const double v[3]) { return dvec3(v[0], v[1], v[2]); };
   for (const double heading : {0.0, 0.5, 3.0, -2.0}) {
     patch.desc.heading = heading;
     const Terrain terrain = built(patch.desc);
     const Camera ahead = camera(heading), right = camera(heading + kPi / 2.0);
-    EXPECT_NEAR(glm::distance(terrain.up(), glm::normalize(vector(ahead.position_m))), 0.0, 1e-12);
+    EXPECT_NEAR(glm::distance(terrain.up(), glm::normalize(vector(ahead.position))), 0.0, 1e-12);
     const dvec3 north = terrain.position(terrain.at(2, 0)) - terrain.origin();
     const dvec3 east = terrain.position(terrain.at(4, 3)) - terrain.origin();
     EXPECT_NEAR(glm::dot(north, vector(ahead.forward)), 3000.0, 0.01);
@@ -246,8 +246,8 @@ TEST(TerrainMesh, NormalsAreThoseOfTheSlope) {
   const Terrain terrain = built(patch.desc);
   Parameters earth;
   ASSERT_EQ(findPreset("earth", &earth, {}), Status::Ok);
-  const Camera east = cameraFromGeodetic(earth, patch.desc.latitude, patch.desc.longitude, 0.0,
-                                         kPi / 2.0, 0.0, 0.0, 1.0);
+  const Camera east = cameraAt(earth, World{}, patch.desc.latitude, patch.desc.longitude, 0.0,
+                               kPi / 2.0, 0.0, 0.0);
   for (size_t i = 0; i < terrain.points(); ++i) {  // Rises eastwards by 1 in 5.
     ASSERT_NEAR(
         glm::dot(terrain.normal(i), dvec3(east.forward[0], east.forward[1], east.forward[2])),
@@ -332,26 +332,27 @@ TEST(TerrainMesh, TheBoxHoldsThePointsAndTouchesThem) {
   patch.desc.heading = 1.0;
   const Terrain terrain = built(patch.desc);
   const Box& box = terrain.place.box;
-  const dvec3 center = {box.center_m[0], box.center_m[1], box.center_m[2]};
-  for (const auto& axis : box.halfAxes_m) {
-    const dvec3 half = {axis[0], axis[1], axis[2]};
-    const double length = glm::length(half);
+  const dvec3 center = {box.center[0], box.center[1], box.center[2]};
+  const auto axisOf = [&](int i) {
+    return dvec3(box.axes[i][0], box.axes[i][1], box.axes[i][2]);
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    const double length = box.halfExtents[axis];
+    EXPECT_NEAR(glm::length(axisOf(axis)), 1.0, 1e-12);
     double least = 0.0, most = 0.0;
     for (size_t i = 0; i < terrain.points(); ++i) {
-      const double along = glm::dot(terrain.position(i) - center, half) / length;
+      const double along = glm::dot(terrain.position(i) - center, axisOf(axis));
       least = std::min(least, along);
       most = std::max(most, along);
     }
     EXPECT_NEAR(most, length, 1e-6);
     EXPECT_NEAR(least, -length, 1e-6);
-    for (const auto& other : box.halfAxes_m) {
-      if (&other == &axis) continue;
-      EXPECT_NEAR(glm::dot(half, dvec3(other[0], other[1], other[2])) / length, 0.0, 1e-6);
+    for (int other = 0; other < 3; ++other) {
+      if (other == axis) continue;
+      EXPECT_NEAR(box.halfExtents[other] * glm::dot(axisOf(axis), axisOf(other)), 0.0, 1e-6);
     }
   }
-  EXPECT_GT(glm::dot(terrain.up(),
-                     dvec3(box.halfAxes_m[2][0], box.halfAxes_m[2][1], box.halfAxes_m[2][2])),
-            0.0);
+  EXPECT_GT(glm::dot(terrain.up(), axisOf(2)), 0.0);
 }
 
 void expectRefused(const TerrainDesc& desc, std::initializer_list<const char*> words,
