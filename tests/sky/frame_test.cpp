@@ -1,5 +1,5 @@
-// Frames of a view: what beginFrame answers and refuses, which LUTs are kept, what an abandoned frame
-// takes back, and the host's world.
+// Frames of a view: what beginFrame answers and refuses, which LUTs are kept, what an abandoned
+// frame takes back, and the host's world.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -33,9 +33,8 @@ Vec sunAt(double elevation, double azimuth = 0.5) {
 class FrameTest : public SkyTest {
  protected:
   static FrameState drawAt(double altitude, double elevation, double heading = 0.0) {
-    return makeDraw(
-        cameraFromGeodetic(preset("earth"), 0.0, 0.0, altitude, heading, 0.1, 0.0, 1.0),
-        sunAt(elevation), kExtent);
+    return makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, altitude, heading, 0.1, 0.0, 1.0),
+                    sunAt(elevation), kExtent);
   }
 
   /// A frame number that nothing has been recorded in.
@@ -75,7 +74,8 @@ class FrameTest : public SkyTest {
   }
 };
 
-/// Moved about the axis towards the sun: neither altitude nor the sun's elevation change. And turned.
+/// Moved about the axis towards the sun: neither altitude nor the sun's elevation change. And
+/// turned.
 FrameState movedSideways(const FrameState& draw, double angle, double heading) {
   const Vec k = vec(draw.sun.direction), p = vec(draw.camera.position_m), across = cross(k, p);
   const double along = dot(k, p) * (1.0 - std::cos(angle));
@@ -256,10 +256,10 @@ TEST_F(StandardFrameTest, AnAbandonedBakeCompletesWithTheSameBytes) {
       &error));
   EXPECT_TRUE(progress.done);
   EXPECT_TRUE(ready(resumed));
-  const FrameDesc desc = frameDesc(
-      makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0), sunAt(0.4),
-               kExtent),
-      resumed);
+  const FrameDesc desc =
+      frameDesc(makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0),
+                         sunAt(0.4), kExtent),
+                resumed);
   EXPECT_EQ(beginFrame(view(), desc, nullptr), Status::Ok) << message();
   ASSERT_EQ(abandonFrame(context(), frame), Status::Ok) << message();
   EXPECT_EQ(infoOf(resumed).state, TablesState::Baking);
@@ -275,8 +275,7 @@ TEST_F(StandardFrameTest, AnAbandonedBakeCompletesWithTheSameBytes) {
   bakeAll(device(), resumed);
   EXPECT_TRUE(ready(resumed));
   EXPECT_EQ(beginFrame(view(), desc, nullptr), Status::Ok) << message();
-  for (const TableId id :
-       {kTableOpticalDepth, kTableIrradiance, kTableScattering, kTableSingleMie})
+  for (const TableId id : {kTableOpticalDepth, kTableIrradiance, kTableScattering, kTableSingleMie})
     EXPECT_EQ(bytesOf(resumed, id), bytesOf(whole, id)) << id;
   destroyTables(resumed);
 }
@@ -384,8 +383,8 @@ TEST_F(FrameTest, TheLightsColorIsThatOfProbes) {
   double worst = 0.0, worstOnGround = 0.0;
   for (const double altitude : {0.0, 2.0, 1e4}) {
     const double dip = horizonDip(earth, altitude) / radians(1.0);  // Degrees.
-    for (const double elevation : {90.0, 60.0, 30.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.1, 0.0, -dip + 1e-4,
-                                   -dip - 1e-4, -0.5, -dip - 0.5, -30.0}) {
+    for (const double elevation : {90.0, 60.0, 30.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.1, 0.0,
+                                   -dip + 1e-4, -dip - 1e-4, -0.5, -dip - 0.5, -30.0}) {
       const FrameState draw = drawAt(altitude, radians(elevation));
       FrameDesc desc = frameDesc(draw, baked);
       desc.radianceScale = 8.0;
@@ -425,9 +424,10 @@ TEST_F(FrameTest, TheLightsColorIsThatOfProbes) {
       EXPECT_NEAR(work.illuminance[0], luminance, 1e-12);
     }
   }
-  std::printf("color of the light, greatest relative difference: %.1e of a ray's probe, %.1e of a "
-              "surface's\n",
-              worst, worstOnGround);
+  std::printf(
+      "color of the light, greatest relative difference: %.1e of a ray's probe, %.1e of a "
+      "surface's\n",
+      worst, worstOnGround);
   destroyTables(baked);
 }
 
@@ -463,11 +463,11 @@ TEST_F(FrameTest, WarningsComeOnceForAView) {
   };
   std::vector<Heard> heard;
   ContextDesc contextDesc = device().contextDesc();
-  contextDesc.diagnostics = {[](void* user, const Diagnostic& d) {
-                               static_cast<std::vector<Heard>*>(user)->push_back(
-                                   {d.severity, d.message});
-                             },
-                             &heard};
+  contextDesc.diagnostics = {
+      [](void* user, const Diagnostic& d) {
+        static_cast<std::vector<Heard>*>(user)->push_back({d.severity, d.message});
+      },
+      &heard};
   Context* made = nullptr;
   ASSERT_EQ(createContext(contextDesc, &made), Status::Ok);
   TableDesc tableDesc;
@@ -522,8 +522,7 @@ TEST_F(FrameTest, WorldsShowWhatThePlanetFrameShows) {
     FrameDesc desc;
     desc.tables = tables();
     desc.world = world;
-    desc.cameras[0] =
-        cameraAt(earth, world, kLatitude, kLongitude, altitude, heading, pitch, roll);
+    desc.cameras[0] = cameraAt(earth, world, kLatitude, kLongitude, altitude, heading, pitch, roll);
     desc.cameras[0].fov = 1.1;
     desc.cameras[0].viewport.extent = kExtent;
     directionAt(world, kLatitude, kLongitude, 0.15, 0.9, desc.lights[0].direction);

@@ -12,8 +12,8 @@ class StandardSliceTest : public StandardSkyTest {
  protected:
   FrameState drawAt(double altitude, double elevation, double pitch = 5.0) {
     const Parameters earth = preset("earth");
-    const EyeCamera camera = cameraFromGeodetic(earth, radians(20), radians(30), altitude, radians(80),
-                                             radians(pitch), 0.0, radians(70));
+    const EyeCamera camera = cameraFromGeodetic(earth, radians(20), radians(30), altitude,
+                                                radians(80), radians(pitch), 0.0, radians(70));
     Vec sun;
     sunDirection(radians(20), radians(30), radians(elevation), radians(100), sun.data());
     FrameState draw = makeDraw(camera, sun, kExtent);
@@ -21,9 +21,7 @@ class StandardSliceTest : public StandardSkyTest {
     return draw;
   }
 
-  View* sliceView(MieStorage mie = MieStorage::Full) {
-    return makeView({}, tables("earth", mie));
-  }
+  View* sliceView(MieStorage mie = MieStorage::Full) { return makeView({}, tables("earth", mie)); }
 
   static void expectSame(const Picture& a, const Picture& b) {
     ASSERT_EQ(a.data.size(), b.data.size());
