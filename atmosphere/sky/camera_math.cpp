@@ -2,14 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "atmosphere/model/query.h"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 namespace alpenglow::sky {
+namespace {
+
+physics_f64::Spectrum depthToTop(const physics_f64::Medium& medium, double h, double mu) {
+  return physics_f64::opticalDepthOfSegment(medium, h, mu,
+                                            physics_f64::distanceToTop(medium, h, mu));
+}
+
+// Where half of the sun's disc has set, its centre's ray ends on the ground. What is left of the
+// disc is seen past the horizon, where depthTowardsTop of shaders/glsl/physics has twice the
+// grazing ray's depth, less that of the part behind the camera.
+physics_f64::Spectrum depthTowardsSun(const physics_f64::Medium& medium,
+                                      const physics_f64::Ray& ray) {
+  if (!ray.hitsGround) return depthToTop(medium, ray.h, ray.mu);
+  const physics_f64::Spectrum grazing = depthToTop(medium, 0.0, 0.0);
+  const physics_f64::Spectrum rise = depthToTop(medium, ray.h, -ray.mu);
+  physics_f64::Spectrum depth = grazing;
+  for (uint32_t i = 0; i < kSpectrumSize; ++i) {
+    const int c = static_cast<int>(i);
+    depth[c] = std::max(2.0 * grazing[c] - rise[c], grazing[c]);
+  }
+  return depth;
+}
+
+}  // namespace
 
 double cameraRadius(const EyeCamera& camera) {
   return std::sqrt(dot(camera.position_m, camera.position_m));
@@ -50,9 +71,7 @@ Spectrum sunlight(const Parameters& parameters, const FrameState& draw) {
   towardsSun.zenith = towardsSun.sunZenith = std::acos(muS);
   const ResolvedQuery ray = resolveQuery(medium, towardsSun);
   physics_f64::Spectrum depth(0.0);
-  // Where half of the sun's disc has set, its centre's ray ends on the ground.
-  if (!ray.empty)
-    depth = physics_f64::opticalDepthOfSegment(medium, ray.ray.h, ray.ray.mu, ray.length);
+  if (!ray.empty) depth = depthTowardsSun(medium, ray.ray);
   for (uint32_t i = 0; i < kSpectrumSize; ++i)
     light[i] = draw.sun.irradiance[i] * visible * std::exp(-depth[static_cast<int>(i)]);
   return light;

@@ -195,8 +195,8 @@ ResolvedView resolve(const TableDesc& tables, const ViewDesc& desc) {
   p.disabledEffects = desc.disabledEffects | tables.disabledEffects;
   const bool parallel = desc.projection == Projection::Orthographic;
   p.skyLut = desc.sky == SkyMethod::Lut && !parallel && hasSkySlice(tables.solver);
-  // Standard has no LUT above the top of the atmosphere.
-  p.onlyLut = p.skyLut && (tables.solver != Solver::Standard ||
+  // The others have no LUT above the top of the atmosphere.
+  p.onlyLut = p.skyLut && (tables.solver == Solver::Moments ||
                            !hasEffect(p.disabledEffects, Effect::SpaceViews));
   p.aerial = desc.aerialPerspective != AerialPerspective::Off;
   p.aerialLut = desc.aerialPerspective == AerialPerspective::On && !parallel &&

@@ -20,9 +20,10 @@ INSTANTIATE_TEST_SUITE_P(Models, EveryModelTest,
                                            Solver::Schafhitzel, Solver::Hillaire),
                          titleOf);
 
-FrameState drawFrom(double altitude, double pitch, double elevation, double fov, VkExtent2D extent) {
+FrameState drawFrom(double altitude, double pitch, double elevation, double fov,
+                    VkExtent2D extent) {
   const EyeCamera camera = cameraFromGeodetic(preset("earth"), 0.5, -1.2, altitude, radians(100.0),
-                                           radians(pitch), 0.1, radians(fov));
+                                              radians(pitch), 0.1, radians(fov));
   double sun[3];
   sunDirection(0.5, -1.2, radians(elevation), radians(80.0), sun);
   return makeDraw(camera, vec(sun), extent);

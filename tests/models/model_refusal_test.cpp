@@ -66,7 +66,7 @@ TEST_F(ModelRefusalTest, ViewsOfAnotherSolver) {
   const Status status =
       testing::recordSky(view, reinterpret_cast<VkCommandBuffer>(1), tables(), draw);
   EXPECT_EQ(status, Status::InvalidArgument);
-  EXPECT_TRUE(hasAll(message(), "Solver::Moments|Hillaire")) << message();
+  EXPECT_TRUE(hasAll(message(), "FrameDesc::tables|solver")) << message();
 }
 
 TEST(ModelLimit, IsASentenceWhereThereIsOne) {

@@ -183,7 +183,8 @@ double AirTest::leastSeconds(const std::function<bool(VkCommandBuffer)>& record)
   return best;
 }
 
-double AirTest::askSeconds(const FrameState& draw, AirAsk what, const std::vector<AirQuery>& queries) {
+double AirTest::askSeconds(const FrameState& draw, AirAsk what,
+                           const std::vector<AirQuery>& queries) {
   makeObjects();
   std::copy(queries.begin(), queries.end(), static_cast<AirQuery*>(objects().queries.data()));
   Tables* const baked = tables();

@@ -133,7 +133,7 @@ class MapDrawing {
 
 /// Straight down, the sun in the zenith there; north is up in the picture.
 FrameState lookDown(const Parameters& p, double latitude, double longitude, double altitude,
-                 double fov, VkExtent2D extent) {
+                    double fov, VkExtent2D extent) {
   const EyeCamera camera =
       cameraFromGeodetic(p, latitude, longitude, altitude, 0.0, radians(-90.0), 0.0, fov);
   return makeDraw(camera, unit(vec(camera.position_m)), extent);
@@ -196,7 +196,7 @@ TEST_F(SkyTest, NoLineAtTheSeam) {
   for (const double latitude : {0.0, 50.0, 75.0}) {
     for (const double altitude : {1e4, 3e5, 3.6e7}) {
       const FrameState draw = lookDown(earth, radians(latitude), radians(180.0), altitude,
-                                    altitude > 1e7 ? radians(3.0) : radians(60.0), {64, 32});
+                                       altitude > 1e7 ? radians(3.0) : radians(60.0), {64, 32});
       const Picture drawn = drawing.draw(smooth, draw);
       // A line would be a bend; the map's own texels bend it by under 1 %.
       for (uint32_t y = 0; y < drawn.height; ++y) {

@@ -10,9 +10,9 @@ constexpr double kSunRadius = radians(0.2667);
 
 /// Looks at the sun, `off` radians beside it.
 FrameState towardsSun(const Parameters& parameters, double altitude, double elevation, double fov,
-                   VkExtent2D extent, double off = 0.0) {
+                      VkExtent2D extent, double off = 0.0) {
   const EyeCamera camera = cameraFromGeodetic(parameters, 0.2, 0.3, altitude, 1.0 + off,
-                                           elevation + 0.7 * off, 0.0, fov);
+                                              elevation + 0.7 * off, 0.0, fov);
   double sun[3];
   sunDirection(0.2, 0.3, elevation, 1.0, sun);
   FrameState draw = makeDraw(camera, vec(sun), extent);

@@ -30,7 +30,8 @@ TEST_F(SkyTest, BadDrawsAreRefusedWithTheValue) {
       {"Camera::forward|unit", [](FrameState& d) { d.camera.forward[0] = 7.0; }},
       {"Camera::forward|nan", [](FrameState& d) { d.camera.forward[2] = kNan; }},
       {"Camera::up|unit", [](FrameState& d) { d.camera.up[0] = d.camera.up[2] = 0.0; }},
-      {"Camera::up|orthogonal", [](FrameState& d) { std::copy_n(d.camera.forward, 3, d.camera.up); }},
+      {"Camera::up|orthogonal",
+       [](FrameState& d) { std::copy_n(d.camera.forward, 3, d.camera.up); }},
       {"Camera::fov|-1", [](FrameState& d) { d.camera.fov = -1.0; }},
       {"Camera::fov|3.14159", [](FrameState& d) { d.camera.fov = kPi; }},
       {"Camera::fov|nan", [](FrameState& d) { d.camera.fov = kNan; }},
@@ -72,8 +73,7 @@ TEST_F(SkyTest, BadDrawsAreRefusedWithTheValue) {
 
 TEST_F(SkyTest, BadLightsAreRefusedWithTheValue) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  for (const auto& [value, text] :
-       {std::pair{-3.0, "-3"}, {kNan, "nan"}, {1e31, "1e+31"}}) {
+  for (const auto& [value, text] : {std::pair{-3.0, "-3"}, {kNan, "nan"}, {1e31, "1e+31"}}) {
     TableDesc desc;
     desc.lights[0].irradiance[1] = value;
     Tables* made = nullptr;
@@ -144,13 +144,11 @@ TEST_F(StandardSkyTest, TablesMustFitTheView) {
     EXPECT_EQ(message(), "");  // It is no error.
     EXPECT_EQ(testing::recordSky(view(), commands, packed, goodDraw()), Status::InvalidArgument);
     EXPECT_TRUE(hasAll(message(), "FrameDesc::tables|MieStorage")) << message();
-    EXPECT_EQ(testing::recordSky(foreign, commands, tables(), goodDraw()),
-              Status::InvalidArgument);
+    EXPECT_EQ(testing::recordSky(foreign, commands, tables(), goodDraw()), Status::InvalidArgument);
     EXPECT_TRUE(hasAll(lastDiagnostic(), "another context")) << lastDiagnostic();
     // Null tables are those of createView, which are not baked here.
     EXPECT_EQ(testing::recordSky(foreign, commands, nullptr, goodDraw()), Status::NotReady);
-    EXPECT_EQ(testing::recordSky(nullptr, commands, tables(), goodDraw()),
-              Status::InvalidArgument);
+    EXPECT_EQ(testing::recordSky(nullptr, commands, tables(), goodDraw()), Status::InvalidArgument);
     EXPECT_EQ(testing::recordSky(view(), VK_NULL_HANDLE, tables(), goodDraw()),
               Status::InvalidArgument);
     return true;
@@ -176,8 +174,7 @@ TEST_F(SkyTest, BadViewsAreRefusedWithTheValue) {
        [](ViewDesc& d) { d.depthFormat = VK_FORMAT_R8G8B8A8_UNORM; }},
       {Status::Unsupported, "viewMask", [](ViewDesc& d) { d.viewMask = 3; }},
       {Status::Unsupported, "samples is 3", [](ViewDesc& d) { d.samples = 3; }},
-      {Status::Unsupported, "samples is 64",
-       [](ViewDesc& d) { d.samples = 64; }},
+      {Status::Unsupported, "samples is 64", [](ViewDesc& d) { d.samples = 64; }},
       {Status::InvalidArgument, "projection 9", [](ViewDesc& d) { d.projection = Projection(9); }},
       {Status::InvalidArgument, "depth 5", [](ViewDesc& d) { d.depth = DepthConvention(5); }},
       {Status::InvalidArgument, "sky 2", [](ViewDesc& d) { d.sky = SkyMethod(2); }},

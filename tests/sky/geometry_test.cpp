@@ -127,8 +127,9 @@ TEST_F(SkyTest, OnlyTheViewportIsDrawn) {
   for (const Projection projection : {Projection::Perspective, Projection::Fisheye}) {
     for (const VkRect2D& area :
          {VkRect2D{{7, 5}, {24, 17}}, VkRect2D{{0, 13}, {40, 17}}, VkRect2D{{39, 29}, {1, 1}}}) {
-      FrameState draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(5.0), 0.0, 1.0),
-                              sunAt(radians(30.0), 0.3), area.extent);
+      FrameState draw =
+          makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(5.0), 0.0, 1.0),
+                   sunAt(radians(30.0), 0.3), area.extent);
       draw.sun.discRadius = radians(5.0);
       const Picture alone = picture(draw, projection);
       draw.viewport = area;

@@ -154,8 +154,7 @@ TEST_F(SkyTest, IrradianceAndScaleMultiply) {
   Parameters colored = earth;
   colored.solarIrradiance = {{2.0, 0.5, 0.0}};
   draw.radianceScale = 1024.0;
-  const Picture scaled =
-      picture(draw, Projection::Perspective, tables("earth, 2 0.5 0", colored));
+  const Picture scaled = picture(draw, Projection::Perspective, tables("earth, 2 0.5 0", colored));
   for (uint32_t y = 0; y < plain.height; ++y) {
     for (uint32_t x = 0; x < plain.width; ++x) {
       const float* p = plain.at(x, y);

@@ -39,7 +39,14 @@ TableDesc smallTables(MieStorage mie) {
   desc.solver = Solver::Standard;
   desc.orders = 2;
   desc.mie = mie;
-  desc.sizes = {.transmittanceMu = 64, .transmittanceR = 16, .irradianceMuS = 16, .irradianceR = 4, .scatteringR = 8, .scatteringMu = 32, .scatteringMuS = 16, .scatteringNu = 4};
+  desc.sizes = {.transmittanceMu = 64,
+                .transmittanceR = 16,
+                .irradianceMuS = 16,
+                .irradianceR = 4,
+                .scatteringR = 8,
+                .scatteringMu = 32,
+                .scatteringMuS = 16,
+                .scatteringNu = 4};
   return desc;
 }
 
@@ -70,14 +77,14 @@ std::vector<ProbeAnswer> probe(headless::Device& device, const Tables* tables,
       count * kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, &error);
   const bool ran = device.run(
       [&](VkCommandBuffer commands) {
-        return recordProbe(tables, commands, queries.data(), count,
-                           buffer.buffer()) == Status::Ok;
+        return recordProbe(tables, commands, queries.data(), count, buffer.buffer()) == Status::Ok;
       },
       &error);
   EXPECT_TRUE(ran) << error;
   if (!ran) return {};
   std::vector<ProbeAnswer> answers(count);
-  EXPECT_EQ(answerQueries(tables, queries.data(), count, buffer.data(), answers.data()), Status::Ok);
+  EXPECT_EQ(answerQueries(tables, queries.data(), count, buffer.data(), answers.data()),
+            Status::Ok);
   return answers;
 }
 
@@ -90,7 +97,8 @@ FrameState makeDraw(const EyeCamera& camera, const Vec& sun, VkExtent2D extent) 
   return draw;
 }
 
-std::optional<Vec> pixelDirection(const FrameState& draw, Projection projection, double x, double y) {
+std::optional<Vec> pixelDirection(const FrameState& draw, Projection projection, double x,
+                                  double y) {
   const double width = draw.viewport.extent.width, height = draw.viewport.extent.height;
   const Vec forward = vec(draw.camera.forward), up = vec(draw.camera.up);
   const Vec right = cross(forward, up);
@@ -206,7 +214,8 @@ View* SkyTest::makeView(const ViewDesc& desc, Tables* with) {
   ViewDesc full = desc;
   if (full.colorFormat == VK_FORMAT_UNDEFINED) full.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   View* made = nullptr;
-  EXPECT_EQ(createView(context(), with != nullptr ? with : tables(), full, &made), Status::Ok) << message();
+  EXPECT_EQ(createView(context(), with != nullptr ? with : tables(), full, &made), Status::Ok)
+      << message();
   if (made != nullptr) shared().otherViews.push_back(made);
   return made;
 }

@@ -12,8 +12,8 @@
 #include <optional>
 #include <vector>
 
-#include "tests/engine/device_fixture.h"
 #include "tests/bake/tables_state.h"
+#include "tests/engine/device_fixture.h"
 #include "tests/sky/vulkan_wrap.h"
 #include "tests/support/frames.h"
 
@@ -76,7 +76,8 @@ FrameState makeDraw(const EyeCamera& camera, const Vec& sun, VkExtent2D extent);
 
 /// The direction that the centre of a pixel looks in, by docs/file-formats.md, in double; x and y
 /// count from the viewport's corner. Nothing outside a fisheye's circle.
-std::optional<Vec> pixelDirection(const FrameState& draw, Projection projection, double x, double y);
+std::optional<Vec> pixelDirection(const FrameState& draw, Projection projection, double x,
+                                  double y);
 
 /// The probe query of a camera's ray.
 ProbeQuery rayQuery(const Parameters& parameters, const EyeCamera& camera, const Vec& direction,

@@ -12,8 +12,8 @@ class StandardSliceTest : public StandardSkyTest {
  protected:
   FrameState drawAt(double altitude, double elevation, double pitch = 5.0) {
     const Parameters earth = preset("earth");
-    const EyeCamera camera = cameraFromGeodetic(earth, radians(20), radians(30), altitude, radians(80),
-                                             radians(pitch), 0.0, radians(70));
+    const EyeCamera camera = cameraFromGeodetic(earth, radians(20), radians(30), altitude,
+                                                radians(80), radians(pitch), 0.0, radians(70));
     Vec sun;
     sunDirection(radians(20), radians(30), radians(elevation), radians(100), sun.data());
     FrameState draw = makeDraw(camera, sun, kExtent);
@@ -21,9 +21,7 @@ class StandardSliceTest : public StandardSkyTest {
     return draw;
   }
 
-  View* sliceView(MieStorage mie = MieStorage::Full) {
-    return makeView({}, tables("earth", mie));
-  }
+  View* sliceView(MieStorage mie = MieStorage::Full) { return makeView({}, tables("earth", mie)); }
 
   static void expectSame(const Picture& a, const Picture& b) {
     ASSERT_EQ(a.data.size(), b.data.size());
@@ -67,8 +65,9 @@ TEST_F(StandardSliceTest, IsNotReadForAnotherCameraSunOrTables) {
   recordSlice(sliced, earth, draw);
   for (const FrameState& other : {drawAt(3000.0, 20.0), drawAt(2.0, 5.0)})
     expectNeedsSlice(sliced, earth, other);
-  expectNeedsSlice(sliced, mars, draw);
-  // Above the air there is none.
+  expectNeedsSlice(sliced, tables("earth-hazy"), draw);
+  // Above the air there is none, as for Mars, a smaller planet.
+  expectSame(picture(sliced, mars, draw, target), picture(direct, mars, draw, target));
   const FrameState space = drawAt(4e5, 20.0, -30.0);
   expectSame(picture(sliced, earth, space, target), picture(direct, earth, space, target));
   // A turned head looks into the same slice.

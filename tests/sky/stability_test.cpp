@@ -170,7 +170,7 @@ TEST_P(StabilityTest, HorizonIsOneCleanLine) {
       const double r = earth.bottomRadius_m + altitude;
       const double dip = horizonDip(earth, altitude);
       FrameState draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, altitude, 0.0, -dip, 0.0, fov),
-                              sunAt(0.1 - dip, 0.0), {24, 64});
+                                 sunAt(0.1 - dip, 0.0), {24, 64});
       const Picture without = picture(draw);
       draw.sun.discRadius = radians(60.0);
       const Picture with = picture(draw);

@@ -152,7 +152,8 @@ TEST_F(TimingTest, ASliceMakesAPixelOfSkyCheaper) {
     View* view = makeView(viewDesc, tables);
     viewDesc.sky = SkyMethod::Integrate;
     View* unsliced = makeView(viewDesc, tables);
-    const EyeCamera up = cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(60), 0.0, radians(50));
+    const EyeCamera up =
+        cameraFromGeodetic(earth, 0.0, 0.0, 2.0, 0.0, radians(60), 0.0, radians(50));
     const FrameState draw = makeDraw(up, unit({0.5, 0.7, 0.2}), kExtent);
     const double direct = frameCost(unsliced, tables, draw);
     sliceCost(view, tables, draw);
@@ -192,8 +193,8 @@ TEST_F(TimingTest, APixelOfMomentsFromASlice) {
   sunDirection(0.0, 0.0, radians(50.0), 0.2, sun);
   for (const Look& look : looks) {
     FrameState draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, look.altitude, 0.2,
-                                               radians(look.pitch), 0.0, radians(look.fov)),
-                            vec(sun), kExtent);
+                                                  radians(look.pitch), 0.0, radians(look.fov)),
+                               vec(sun), kExtent);
     draw.sun.discRadius = radians(look.discRadius);
     const double direct = frameCost(unsliced, tables, draw);
     const double slice = sliceCost(view, tables, draw);

@@ -11,8 +11,8 @@ namespace {
 
 /// Does any pixel of an area see the air, the ground or the disc? By every `stride`th pixel's
 /// direction, in double.
-sky::Visible bruteForce(const Parameters& parameters, const PictureDesc& desc, const FrameState& draw,
-                        const VkRect2D& area, uint32_t stride = 1) {
+sky::Visible bruteForce(const Parameters& parameters, const PictureDesc& desc,
+                        const FrameState& draw, const VkRect2D& area, uint32_t stride = 1) {
   sky::Visible seen = {false, false, false};
   const Vec position = vec(draw.camera.position_m), sun = vec(draw.sun.direction);
   const double r = length(position);
@@ -186,9 +186,9 @@ TEST_P(VariantTest, VariantsDrawWhatTheFullOneDraws) {
     int variants[sky::kVariants] = {};
     for (const double altitude : {0.0, 1e4, 1e5, 1e7}) {
       for (double pitch = -90.0; pitch <= 90.0; pitch += 20.0) {
-        FrameState draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, altitude, 0.3, radians(pitch),
-                                                   radians(30.0), radians(60.0)),
-                                vec(sun), target.extent);
+        FrameState draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, altitude, 0.3,
+                                                      radians(pitch), radians(30.0), radians(60.0)),
+                                   vec(sun), target.extent);
         draw.sun.discRadius = radians(1.0);
         const sky::Parts parts = sky::cut(earth, pictureDesc, draw);
         for (uint32_t i = 0; i < parts.count; ++i) ++variants[sky::variant(parts.parts[i].visible)];

@@ -49,7 +49,7 @@ struct LightShaftDesc {
 
 enum class SkyMethod : uint32_t {
   Lut,        ///< From the sky-view LUT, which recordLuts updates. Orthographic cameras and solvers
-              ///< without a LUT integrate, as does Standard above the top of the atmosphere.
+              ///< without a LUT integrate, as do all but Moments above the top of the atmosphere.
   Integrate,  ///< Integrates or looks up along each pixel's ray; no LUT.
 };
 
