@@ -71,7 +71,7 @@ Measured draw(io::Scene scene, const Method& method, const std::string& device, 
   Scenery scenery(&session, scene, files, ready, shafts, plan);
   Measured measured;
   // The first compiles the shaders.
-  Painter painter(&session, scene, nullptr, ready, plan, &scenery);
+  Painter painter(&session, nullptr, ready, plan, &scenery);
   measured.picture = painter.draw(scene, ready.tables.get(), target);
   const bool software = isSoftware(session);
   for (uint32_t i = 0; i < frames; ++i) {

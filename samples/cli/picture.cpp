@@ -3,7 +3,7 @@
 #include "common/scene_plan.h"
 
 namespace alpenglow::cli {
-Painter::Painter(Session* session, const io::Scene& scene, const io::AlbedoMap* albedo,
+Painter::Painter(Session* session, const io::AlbedoMap* albedo,
                  const ReadyTables& tables, const Plan& plan, Scenery* scenery)
     : session_(session), gpu_(session->gpu()), scenery_(scenery), solver_(tables.desc.solver) {
   ViewDesc desc = plan.view;

@@ -30,7 +30,7 @@ class Painter {
  public:
   /// `albedo`, of the ground, and `scenery` may be null; `tables` are as those that it will draw
   /// with, by a plan that serves all of them. Throws a Failure.
-  Painter(Session* session, const io::Scene& scene, const io::AlbedoMap* albedo,
+  Painter(Session* session, const io::AlbedoMap* albedo,
           const ReadyTables& tables, const Plan& plan, Scenery* scenery);
   Painter(const Painter&) = delete;
   Painter& operator=(const Painter&) = delete;

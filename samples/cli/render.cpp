@@ -93,7 +93,7 @@ void runRender(const RenderArguments& arguments) {
   if (scene.terrain || !scene.balloons.empty()) {
     scenery.emplace(&session, scene, files, ready, describeShafts(shafts, session), plan);
   }
-  Painter painter(&session, scene, albedo ? &*albedo : nullptr, ready, plan,
+  Painter painter(&session, albedo ? &*albedo : nullptr, ready, plan,
                   scenery ? &*scenery : nullptr);
   writePicture(output, scene, painter.draw(scene, ready.tables.get(), target));
   if (!arguments.run.report.empty()) {

@@ -45,7 +45,7 @@ void WalkFrames::usePainter(const io::Scene& scene) {
     scenery_.emplace(parts_.session, scene, *parts_.files, *ready_, parts_.shafts, plan);
   }
   projection_ = projection;
-  painter_.emplace(parts_.session, scene, parts_.albedo, *ready_, plan,
+  painter_.emplace(parts_.session, parts_.albedo, *ready_, plan,
                    scenery_ ? &*scenery_ : nullptr);
 }
 
