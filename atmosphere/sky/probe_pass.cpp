@@ -8,6 +8,7 @@
 #include "atmosphere/bake/effect_constants.h"
 #include "atmosphere/model/query.h"
 #include "atmosphere/sky/shader_choice.h"
+#include "engine/exceptions.h"
 
 namespace alpenglow::sky {
 namespace {
