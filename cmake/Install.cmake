@@ -1,5 +1,5 @@
-# Installed: libraries with their CMake package and pkg-config file, the licence, public headers, the program, and under
-# share/alpenglow the GLSL that hosts include, the sample scenes and their data.
+# Installed: libraries with their CMake package and pkg-config file, the licence, public headers, the program,
+# and under share/alpenglow the GLSL that hosts include, the sample scenes and their data.
 include(CMakePackageConfigHelpers)
 
 set(share "${CMAKE_INSTALL_DATADIR}/alpenglow")
@@ -44,7 +44,7 @@ if(ALPENGLOW_BUILD_SAMPLES)
     install(TARGETS alpenglow_view RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
     install(FILES "${PROJECT_SOURCE_DIR}/samples/view/view.json" DESTINATION "${share}")
   endif()
-  install(DIRECTORY "${PROJECT_SOURCE_DIR}/samples/scenes" "${PROJECT_SOURCE_DIR}/samples/walks"
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/samples/scenes" "${PROJECT_SOURCE_DIR}/samples/flythroughs"
                     "${PROJECT_SOURCE_DIR}/samples/data"
           DESTINATION "${share}")
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/tests/data/truth" DESTINATION "${share}"

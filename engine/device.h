@@ -93,7 +93,7 @@ struct Counters {
 };
 
 /// The host's device as we see it. Everything here is thread-safe. Made on the heap with the host's
-/// allocation callbacks left aside: those serve Vulkan objects only.
+/// allocation callbacks left aside: those apply to Vulkan objects only.
 class Device {
  public:
   /// Checks the description and fills the table. On failure `*out` is null and the description's

@@ -89,7 +89,8 @@ struct GraphicsPipelineDesc {
   VkCullModeFlags cull = VK_CULL_MODE_NONE;
   bool depthTest = false;
   bool depthWrite = false;
-  bool depthClamp = false;  ///< Needs the feature: nothing is clipped at the near and far planes.
+  bool depthClamp =
+      false;  ///< PlanRequest the feature: nothing is clipped at the near and far planes.
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
 };
 

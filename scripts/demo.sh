@@ -22,7 +22,7 @@ mkdir -p out
 for scene in samples/scenes/*.json; do
   atmosphere="$(sed -n 's/.*"atmosphere": *"\([^"]*\)".*/\1/p' "$scene")"
   tables="out/$atmosphere.exr"
-  # The tables don't depend on camera or sun: one bake serves all scenes of an atmosphere.
+  # The tables don't depend on camera or sun: one bake is reused by all scenes of an atmosphere.
   if [[ " ${names[*]} " != *" bake $atmosphere "* ]]; then
     step "bake $atmosphere" build/bin/alpenglow bake "$atmosphere" -o "$tables"
   fi

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# packages.sh [portability]: installs the Debian packages that building and testing need, or those
-# that scripts/portability.sh needs besides, as far as they are missing. Asks nothing. Set ALPENGLOW_SKIP_PACKAGES=1 where they come from elsewhere.
+# packages.sh [portability]: installs the Debian packages that building and testing need, or those that
+# scripts/portability.sh needs besides, as far as they are missing. Asks nothing. Set ALPENGLOW_SKIP_PACKAGES=1
+# where they come from elsewhere.
 set -euo pipefail
 
 packages=(

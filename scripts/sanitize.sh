@@ -11,8 +11,8 @@ if (( ${#presets[@]} == 0 )); then
   presets=(asan+ubsan tsan)
 fi
 scripts/packages.sh
-tests=(engine_mock_test engine_gpu_test engine_net_test engine_headless_test test_physics test_model
-  plan_tests io_tests table_file_tests shafts_cpu_tests)
+tests=(engine_mock_test engine_gpu_test engine_net_test engine_headless_test physics_tests parameters_tests
+  plan_tests io_tests table_file_tests mesh_tests)
 for preset in "${presets[@]}"; do
   cmake --preset "$preset" -DALPENGLOW_BUILD_COST=OFF -DALPENGLOW_BUILD_VIEWER=OFF \
     "-DALPENGLOW_SHADERS_FROM=${ALPENGLOW_SHADERS_FROM:-}"

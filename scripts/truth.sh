@@ -2,7 +2,7 @@
 # truth.sh [NAME...]: makes the truth data of tests/data/truth again: atmospheres and queries by
 # tests/reference/make_queries.py, answers by `alpenglow probe --method reference`. Without names all
 # sets. The answers depend on nothing but the queries and the program, not on the number of cores.
-# ALPENGLOW names the program (default: build/bin/alpenglow). Costs and errors: docs/reference.md.
+# ALPENGLOW names the program (default: build/bin/alpenglow). Costs and errors: docs/reference-solution.md.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

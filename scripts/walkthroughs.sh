@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# walkthroughs.sh [WALK...]: makes the pictures of docs/walkthroughs again, of all sample walks or of
-# those named, with the built program. Needs oiiotool.
+# walkthroughs.sh [FLYTHROUGH...]: makes the pictures of docs/flythroughs again, of all sample flythroughs or
+# of those named, with the built program. PlanRequest oiiotool.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -11,15 +11,15 @@ declare -A frames=(
   [one_parameter]="0,36,84,132,180,228,276,324,336,372"
   [hard_cases]="0,36,60,84,96,132,168,180,204,228,240,276,300,324,336,372"
 )
-walks=("$@")
-if (( ${#walks[@]} == 0 )); then
-  walks=(dawn_to_night summit_to_orbit one_parameter hard_cases)
+flythroughs=("$@")
+if (( ${#flythroughs[@]} == 0 )); then
+  flythroughs=(dawn_to_night summit_to_orbit one_parameter hard_cases)
 fi
 
-for walk in "${walks[@]}"; do
-  build/bin/alpenglow render --walk "$walk" --frames "${frames[$walk]}" --size 480x270 -o "out/$walk"
-  for picture in "out/$walk"/frame_*.png; do
+for flythrough in "${flythroughs[@]}"; do
+  build/bin/alpenglow render --flythrough "$flythrough" --frames "${frames[$flythrough]}" --size 480x270 -o "out/$flythrough"
+  for picture in "out/$flythrough"/frame_*.png; do
     name="$(basename "$picture" .png)"
-    oiiotool "$picture" --compression jpeg:90 -o "docs/walkthroughs/images/${walk}_${name#frame_}.jpg"
+    oiiotool "$picture" --compression jpeg:90 -o "docs/flythroughs/images/${flythrough}_${name#frame_}.jpg"
   done
 done

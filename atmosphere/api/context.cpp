@@ -3,17 +3,17 @@
 
 #include "atmosphere/api/context_impl.h"
 #include "atmosphere/api/device_desc.h"
-#include "atmosphere/model/sentence.h"
+#include "atmosphere/parameters/sentence.h"
 
 namespace alpenglow {
 inline namespace v1 {
 namespace {
 
 constexpr CapabilityFlags kDefaultCapabilities = kCapabilityBake | kCapabilitySky;
-constexpr CapabilityFlags kAllCapabilities =
-    kDefaultCapabilities | kCapabilityAir | kCapabilityShafts | kCapabilityShadowVolumes;
-#define ALPENGLOW_CAPABILITY_NAMES                                          \
-  "kCapabilityBake, kCapabilitySky, kCapabilityAir, kCapabilityShafts and " \
+constexpr CapabilityFlags kAllCapabilities = kDefaultCapabilities | kCapabilityAerialPerspective |
+                                             kCapabilityLightShafts | kCapabilityShadowVolumes;
+#define ALPENGLOW_CAPABILITY_NAMES                                                             \
+  "kCapabilityBake, kCapabilitySky, kCapabilityAerialPerspective, kCapabilityLightShafts and " \
   "kCapabilityShadowVolumes"
 
 const char* capabilityName(CapabilityFlags capability) {
@@ -22,10 +22,10 @@ const char* capabilityName(CapabilityFlags capability) {
       return "kCapabilityBake";
     case kCapabilitySky:
       return "kCapabilitySky";
-    case kCapabilityAir:
-      return "kCapabilityAir";
-    case kCapabilityShafts:
-      return "kCapabilityShafts";
+    case kCapabilityAerialPerspective:
+      return "kCapabilityAerialPerspective";
+    case kCapabilityLightShafts:
+      return "kCapabilityLightShafts";
     default:
       return "kCapabilityShadowVolumes";
   }
@@ -39,10 +39,10 @@ Requirements requirementsOf(CapabilityFlags wanted) {
   needed.capabilities = wanted;
   needed.deviceFeatures = kFeatureSynchronization2;
   const bool volumes = (wanted & kCapabilityShadowVolumes) != 0;
-  if ((wanted & (kCapabilitySky | kCapabilityShafts)) != 0)
+  if ((wanted & (kCapabilitySky | kCapabilityLightShafts)) != 0)
     needed.deviceFeatures |= kFeatureDynamicRendering;
-  needed.features.dualSrcBlend = (wanted & kCapabilityAir) != 0;
-  needed.features.depthClamp = (wanted & kCapabilityShafts) != 0;
+  needed.features.dualSrcBlend = (wanted & kCapabilityAerialPerspective) != 0;
+  needed.features.depthClamp = (wanted & kCapabilityLightShafts) != 0;
   needed.features.geometryShader = volumes;
   needed.features.shaderClipDistance = volumes;
   needed.features.independentBlend = volumes;
@@ -57,23 +57,24 @@ CapabilityFlags capabilitiesOf(const engine::FeatureSet& offered, CapabilityFlag
     if (asked && engine::offersAll(offered, featureSet(requirementsOf(one)))) has |= one;
   }
   // Shadow volumes are a method of light shafts.
-  if ((wanted & ~has & kCapabilityShafts) != 0) has &= ~CapabilityFlags{kCapabilityShadowVolumes};
+  if ((wanted & ~has & kCapabilityLightShafts) != 0)
+    has &= ~CapabilityFlags{kCapabilityShadowVolumes};
   return has;
 }
 
 Status checkCapabilities(const ContextDesc& desc) {
   if ((desc.capabilities & ~kAllCapabilities) == 0) return Status::Ok;
-  return model::report(desc.diagnostics, Status::InvalidArgument,
-                       model::Sentence()
-                           << "ContextDesc::capabilities is " << desc.capabilities
-                           << ", but may have no bits besides " ALPENGLOW_CAPABILITY_NAMES ".");
+  return parameters::report(
+      desc.diagnostics, Status::InvalidArgument,
+      parameters::Sentence() << "ContextDesc::capabilities is " << desc.capabilities
+                             << ", but may have no bits besides " ALPENGLOW_CAPABILITY_NAMES ".");
 }
 
 }  // namespace
 
 Status queryRequirements(const ContextDesc& desc, Requirements* out) {
   const DiagnosticSink& sink = desc.diagnostics;
-  if (out == nullptr) return model::reportNull(sink, "queryRequirements", "the requirements");
+  if (out == nullptr) return parameters::reportNull(sink, "queryRequirements", "the requirements");
   if (Status status = checkCapabilities(desc); status != Status::Ok) return status;
   const CapabilityFlags wanted = desc.capabilities == 0 ? kDefaultCapabilities : desc.capabilities;
   const Requirements needed = requirementsOf(wanted);
@@ -88,25 +89,26 @@ Status queryRequirements(const ContextDesc& desc, Requirements* out) {
 }
 
 Status createContext(const ContextDesc& desc, Context** out) {
-  if (out == nullptr) return model::reportNull(desc.diagnostics, "createContext", "the context");
+  if (out == nullptr)
+    return parameters::reportNull(desc.diagnostics, "createContext", "the context");
   *out = nullptr;
   if (Status status = checkCapabilities(desc); status != Status::Ok) return status;
   auto* context = new (std::nothrow) Context;
   if (context == nullptr) {
-    return model::report(desc.diagnostics, Status::OutOfHostMemory,
-                         "A context found no host memory.");
+    return parameters::report(desc.diagnostics, Status::OutOfHostMemory,
+                              "A context found no host memory.");
   }
   context->capabilities = desc.capabilities == 0 ? kDefaultCapabilities : desc.capabilities;
   Requirements needed = requirementsOf(context->capabilities);
   // A host may draw in render passes: createView asks. Shafts have scopes of their own.
-  if ((context->capabilities & kCapabilityShafts) == 0)
+  if ((context->capabilities & kCapabilityLightShafts) == 0)
     needed.deviceFeatures &= ~DeviceFeatureFlags{kFeatureDynamicRendering};
   Status status = createDevice(desc, needed, &context->device);
   if (status == Status::Ok)
-    status = bake::Resources::create(*context->device, desc.setStages, &context->bake);
+    status = tables::Resources::create(*context->device, desc.setStages, &context->bake);
   if (status == Status::Ok) context->bake->context = context;
   if (status == Status::Ok && (context->capabilities & kCapabilityBake) != 0)
-    status = sky::ProbePass::create(*context->bake, &context->probe);
+    status = passes::ProbePass::create(*context->bake, &context->probe);
   if (status != Status::Ok) {
     destroyContext(context);
     return status;
@@ -118,8 +120,8 @@ Status createContext(const ContextDesc& desc, Context** out) {
 void destroyContext(Context* context) {
   if (context == nullptr) return;
   if (context->device != nullptr) context->device->frames().destroyAll();
-  sky::ProbePass::destroy(context->probe);
-  bake::Resources::destroy(context->bake);
+  passes::ProbePass::destroy(context->probe);
+  tables::Resources::destroy(context->bake);
   engine::Device::destroy(context->device);
   delete context;
 }
@@ -148,7 +150,8 @@ Status abandonFrame(Context* context, uint64_t frame) {
   engine::Device& device = *context->device;
   if (frame <= device.completed() || frame > device.submitting()) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "abandonFrame got frame %" PRIu64 ", but needs one above the completed %" PRIu64
+                       "abandonFrame got frame %" PRIu64
+                       ", but needs one above the completed %" PRIu64
                        " and not above the one being recorded, %" PRIu64 ".",
                        frame, device.completed(), device.submitting());
   }

@@ -3,8 +3,8 @@
 
 #include <alpenglow/context.h>
 
-#include "atmosphere/bake/resources.h"
-#include "atmosphere/sky/probe_pass.h"
+#include "atmosphere/passes/probe_pass.h"
+#include "atmosphere/tables/resources.h"
 
 namespace alpenglow {
 inline namespace v1 {
@@ -12,8 +12,8 @@ inline namespace v1 {
 struct Context {
   engine::Device* device = nullptr;
   CapabilityFlags capabilities = 0;
-  bake::Resources* bake = nullptr;  ///< Layouts that every capability needs.
-  sky::ProbePass* probe = nullptr;  ///< Only with kCapabilityBake.
+  tables::Resources* bake = nullptr;   ///< Layouts that every capability needs.
+  passes::ProbePass* probe = nullptr;  ///< Only with kCapabilityBake.
 };
 
 /// Ok, or Unsupported with a sentence when the context was made without the capability.

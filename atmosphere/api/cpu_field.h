@@ -1,12 +1,12 @@
-// The moment solver's lookups on the CPU in float, from copies of its tables: the text that the
+// The moment solver's lookups on the CPU in float, from copies of its tables: the code that the
 // GPU runs, with sampling in place of the sampler.
 #pragma once
 
-#include "atmosphere/bake/moment_shape.h"
-#include "atmosphere/model/query.h"
+#include "atmosphere/parameters/query.h"
+#include "atmosphere/tables/moment_shape.h"
 
 namespace alpenglow::cpu {
-using namespace physics_f32;             // NOLINT: as the text has it
+using namespace physics_f32;             // NOLINT: as the source has it
 using Spectrum = physics_f32::Spectrum;  // not the public one
 
 /// A tightly packed copy of a table of RGBA16F or RGBA32F. Does not own it. Null data: zeros.
@@ -30,12 +30,12 @@ struct TableCopy {
 /// One atmosphere's tables, made without some effects (TableDesc::disabledEffects).
 class Field {
  public:
-  Field(const Medium& medium, const MomentShape& shape, EffectFlags without,
+  Field(const Medium& medium, const MomentShape& shape, EffectFlags disabledEffects,
         const TableCopy& opticalDepth, const TableCopy& moments, const TableCopy& source)
       : medium_(medium),
         shape_(shape),
-        multiple_(hasEffect(without, Effect::MultipleScattering)),
-        irradiance_(multiple_ && hasEffect(without, Effect::GroundIrradiance)),
+        multiple_(hasEffect(disabledEffects, Effect::MultipleScattering)),
+        irradiance_(multiple_ && hasEffect(disabledEffects, Effect::GroundIrradiance)),
         opticalDepth_(opticalDepth),
         moments_(moments),
         source_(source) {}
@@ -54,7 +54,8 @@ class Field {
   Spectrum skyRadiance(const Ray& ray, Real length) {
     const int panels = static_cast<int>(shape_.viewPanels);
     return radianceOfPath(
-        medium_, lightOfPath(medium_, shape_, ray, length, panels, true, multiple_), ray.nu);
+        medium_, integrateInscattering(medium_, shape_, ray, length, panels, true, multiple_),
+        ray.nu);
   }
 
  private:
@@ -63,7 +64,7 @@ class Field {
   Spectrum readSource(Real3 uvw) const { return source_.sample(uvw[0], uvw[1], uvw[2]); }
 
 #include "shaders/glsl/physics/field_lookup.glsl"
-#include "shaders/glsl/physics/path_light.glsl"
+#include "shaders/glsl/physics/inscattering.glsl"
 
   Medium medium_;
   MomentShape shape_;

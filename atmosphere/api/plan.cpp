@@ -1,4 +1,4 @@
-// Plans of the public API: the rules of the plan's room, and what their outcome costs, told by
+// Plans of the public API: the rules of the plan's room, and what their outcome costs, measured by
 // really planning tables and views both ways.
 #include <alpenglow/plan.h>
 
@@ -6,13 +6,13 @@
 #include <string_view>
 
 #include "atmosphere/api/solver_plan.h"
-#include "atmosphere/bake/moment_shape.h"
-#include "atmosphere/bake/table_set.h"
-#include "atmosphere/model/solvers.h"
+#include "atmosphere/camera/viewport_partition.h"
+#include "atmosphere/parameters/solvers.h"
+#include "atmosphere/passes/sky_pass.h"
+#include "atmosphere/passes/view_cost.h"
 #include "atmosphere/plan/rules.h"
-#include "atmosphere/sky/parts.h"
-#include "atmosphere/sky/sky_pass.h"
-#include "atmosphere/sky/view_cost.h"
+#include "atmosphere/tables/moment_shape.h"
+#include "atmosphere/tables/table_set.h"
 #include "atmosphere/view/frame.h"
 #include "atmosphere/view/view_desc.h"
 #include "engine/exceptions.h"
@@ -30,24 +30,24 @@ struct Completed {
   TableDesc desc;
 };
 Completed completedTables(const Parameters& parameters, const Plan& plan) {
-  const Parameters air = bake::simulated(parameters, plan.tables.disabledEffects);
-  return {air, bake::completed(air, plan.tables)};
+  const Parameters medium = tables::simulated(parameters, plan.tables.disabledEffects);
+  return {medium, tables::completed(medium, plan.tables)};
 }
 
-bake::SolverPlan solverPlanOf(const Completed& tables) {
+tables::BakeGraph solverPlanOf(const Completed& tables) {
   return solverPlan(tables.parameters, tables.desc, TableFormat::Float);
 }
 
-PlanCost tableCost(const bake::SolverPlan& plan) {
-  const bake::TableCost c = bake::costOf(plan);
+PlanCost tableCost(const tables::BakeGraph& plan) {
+  const tables::TableCost c = tables::costOf(plan);
   return {c.bytes, c.bakeBytes, c.texels, c.images, c.pipelines, c.dispatches, c.units};
 }
 
 PlanCost costOf(const Parameters& parameters, const Plan& plan) {
   const Completed tables = completedTables(parameters, plan);
   PlanCost cost = tableCost(solverPlanOf(tables));
-  add(&cost, sky::viewCost(tables.desc, view::resolve(tables.desc, plan.view).picture));
-  add(&cost, plan::shaftCost(plan));
+  add(&cost, passes::viewCost(tables.desc, view::resolve(tables.desc, plan.view).picture));
+  add(&cost, plan::lightShaftCost(plan));
   return cost;
 }
 
@@ -55,20 +55,20 @@ void listImages(const Parameters& parameters, Plan* plan) {
   plan->imageCount = 0;
   const auto append = [plan](const ImageInfo& image) { plan->images[plan->imageCount++] = image; };
   const Completed tables = completedTables(parameters, *plan);
-  const bake::SolverPlan solver = solverPlanOf(tables);
-  for (const bake::PlanImage& image : solver.images) {
+  const tables::BakeGraph solver = solverPlanOf(tables);
+  for (const tables::BakeImage& image : solver.images) {
     if (!image.persistent) continue;
     ImageInfo info;
-    info.name = bake::shortName(image);
+    info.name = tables::shortName(image);
     info.extent = image.extent;
-    info.bytes = bake::bytesOf(image);
+    info.bytes = tables::bytesOf(image);
     append(info);
   }
-  ImageInfo views[sky::kMaxViewImages];
+  ImageInfo views[passes::kMaxViewImages];
   const uint32_t count =
-      sky::viewImages(tables.desc, view::resolve(tables.desc, plan->view).picture, views);
+      passes::viewImages(tables.desc, view::resolve(tables.desc, plan->view).picture, views);
   for (uint32_t i = 0; i < count; ++i) append(views[i]);
-  if (plan::drawsShafts(*plan)) append(plan::shadowMapImage());
+  if (plan::drawsLightShafts(*plan)) append(plan::shadowMapImage());
 }
 
 // Lowers the level until everything fits; what the host gave is kept.
@@ -86,7 +86,7 @@ void fitBudget(const Parameters& parameters, Plan* plan) {
 PlanCost savedBy(const Parameters& parameters, const Plan& plan, Effect effect) {
   Plan other = plan;
   choiceOf(&other, effect).on = true;
-  // Shafts are of the air before a scene.
+  // Shafts are of the aerial perspective over a scene.
   if (effect == Effect::LightShafts) choiceOf(&other, Effect::AerialPerspective).on = true;
   plan::applyEffects(parameters, &other);
   return difference(costOf(parameters, other), plan.cost);
@@ -136,7 +136,8 @@ void fill(const Parameters& parameters, const PlanRequest& request, Plan* plan) 
     if (!choice.on) choice.saves = savedBy(parameters, *plan, static_cast<Effect>(i));
   }
   const TableDesc& base = request.tables;
-  const uint32_t solved = base.solver == Solver::Moments ? bake::solvedOrders(parameters, base) : 5;
+  const uint32_t solved =
+      base.solver == Solver::Moments ? tables::solvedOrders(parameters, base) : 5;
   plan::describeChoices(parameters, solved, unbound, plan);
   priceChoices(parameters, plan);
   listImages(parameters, plan);
@@ -157,39 +158,38 @@ inline namespace v1 {
 Status makePlan(const Parameters& parameters, const PlanRequest& request, Plan* out,
                 const DiagnosticSink& sink) {
   ALPENGLOW_TRY {
-  if (out == nullptr) return model::reportNull(sink, "makePlan", "the plan");
-  Status status = validate(parameters, sink);
-  if (status != Status::Ok) return status;
-  model::Sentence why;
-  status = plan::checkRequest(request, &why);
-  if (status != Status::Ok) return model::report(sink, status, why);
-  status = checkTables(parameters, request, sink);
-  if (status != Status::Ok) return status;
-  status = plan::checkTables(request, &why);
-  if (status != Status::Ok) return model::report(sink, status, why);
-  Plan made;
-  fill(parameters, request, &made);
-  *out = made;
-  return Status::Ok;
+    if (out == nullptr) return parameters::reportNull(sink, "makePlan", "the plan");
+    Status status = validate(parameters, sink);
+    if (status != Status::Ok) return status;
+    parameters::Sentence why;
+    status = plan::checkRequest(request, &why);
+    if (status != Status::Ok) return parameters::report(sink, status, why);
+    status = checkTables(parameters, request, sink);
+    if (status != Status::Ok) return status;
+    status = plan::checkTables(request, &why);
+    if (status != Status::Ok) return parameters::report(sink, status, why);
+    Plan made;
+    fill(parameters, request, &made);
+    *out = made;
+    return Status::Ok;
   }
   ALPENGLOW_CATCH_BAD_ALLOC {  // No exception may reach the host.
-  return model::report(sink, Status::OutOfHostMemory, "There is no host memory for a plan.");
+    return parameters::report(sink, Status::OutOfHostMemory, "There is no host memory for a plan.");
   }
 }
 
 VisibilityFlags visibleFrom(const Parameters& parameters, Projection projection,
                             const FrameDesc& frame) {
-  constexpr VisibilityFlags kAnything =
-      kVisibleSky | kVisibleGround | kVisibleSpace | kVisibleSun;
+  constexpr VisibilityFlags kAnything = kVisibleSky | kVisibleGround | kVisibleSpace | kVisibleSun;
   PictureDesc picture;
   picture.projection = projection;
   const FrameState state =
       view::frameState(frame, projection, parameters.solarIrradiance, frame.sceneDepth.extent);
-  if (!sky::drawable(projection, state)) return kAnything;
+  if (!passes::drawable(projection, state)) return kAnything;
   VisibilityFlags visible = 0;
-  const sky::Parts parts = sky::cut(parameters, picture, state);
+  const passes::ViewportPartition parts = passes::cut(parameters, picture, state);
   for (uint32_t i = 0; i < parts.count; ++i) {
-    const sky::Visible& v = parts.parts[i].visible;
+    const passes::Visible& v = parts.parts[i].visible;
     if (v.air) visible |= kVisibleSky;
     if (v.ground) visible |= kVisibleGround;
     if (!v.air) visible |= kVisibleSpace;

@@ -6,7 +6,7 @@
 
 #include "atmosphere/api/context_impl.h"
 #include "atmosphere/api/cpu_field.h"
-#include "atmosphere/model/solvers.h"
+#include "atmosphere/parameters/solvers.h"
 
 namespace alpenglow {
 inline namespace v1 {
@@ -85,7 +85,7 @@ Status answerOnCpu(const Tables& tables, const ProbeQuery* queries, uint32_t cou
   const Parameters& parameters = tables.parameters();
   const TableDesc& desc = tables.desc();
   const physics_f64::Medium medium = makeMediumF64(parameters);
-  cpu::Field field(makeMediumF32(parameters), bake::makeMomentShapeF32(parameters, desc),
+  cpu::Field field(makeMediumF32(parameters), tables::makeMomentShapeF32(parameters, desc),
                    desc.disabledEffects, copyOf(tables, kTableOpticalDepth),
                    copyOf(tables, kTableMoments), copyOf(tables, kTableSource));
   const bool skyRadiance = desc.cpuQueries == CpuQueries::All;
@@ -126,7 +126,7 @@ Status answerQueries(const Tables* tables, const ProbeQuery* queries, uint32_t c
                      const void* deviceAnswers, ProbeAnswer* answers) {
   if (tables == nullptr || queries == nullptr || answers == nullptr)
     return nullArgument(tables, "answerQueries");
-  const Status status = sky::checkQueries(tables->resources().device(), queries, count);
+  const Status status = passes::checkQueries(tables->resources().device(), queries, count);
   if (status != Status::Ok) return status;
   if (deviceAnswers == nullptr) return answerOnCpu(*tables, queries, count, answers);
   const physics_f64::Medium medium = makeMediumF64(tables->parameters());

@@ -3,7 +3,7 @@
 
 #include "atmosphere/api/context_impl.h"
 #include "atmosphere/api/solver_plan.h"
-#include "atmosphere/model/solvers.h"
+#include "atmosphere/parameters/solvers.h"
 
 namespace alpenglow {
 inline namespace v1 {
@@ -24,7 +24,7 @@ Status createTables(Context* context, const Parameters& parameters, const TableD
   *out = nullptr;
   TableDesc full = desc;
   Status status = resolveTableDesc(parameters, &full, context->device->sink());
-  if (status == Status::Ok) status = bake::checkDeviceLimits(*context->device, full);
+  if (status == Status::Ok) status = tables::checkDeviceLimits(*context->device, full);
   if (status != Status::Ok) return status;
   const bool bakes = (context->capabilities & kCapabilityBake) != 0;
   if (!bakes && isModel(full.solver)) {
@@ -33,7 +33,8 @@ Status createTables(Context* context, const Parameters& parameters, const TableD
                                  "without kCapabilityBake.",
                                  solverEnumerator(full.solver));
   }
-  return Tables::create(*context->bake, bake::simulated(parameters, desc.disabledEffects), full, solverPlan, bakes, out);
+  return Tables::create(*context->bake, tables::simulated(parameters, desc.disabledEffects), full,
+                        solverPlan, bakes, out);
 }
 
 void destroyTables(Tables* tables) {

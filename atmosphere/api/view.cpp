@@ -18,11 +18,12 @@ Status nullCall(const View* view, const char* call) {
 Status requireCapabilities(const Context& context, const ViewDesc& desc) {
   Status status = requireCapability(context, kCapabilitySky, "createView");
   if (status == Status::Ok && desc.aerialPerspective != AerialPerspective::Off) {
-    status = requireCapability(context, kCapabilityAir,
+    status = requireCapability(context, kCapabilityAerialPerspective,
                                "createView with ViewDesc::aerialPerspective");
   }
   if (status == Status::Ok && desc.lightShafts.method != LightShaftMethod::Off)
-    status = requireCapability(context, kCapabilityShafts, "createView with ViewDesc::lightShafts");
+    status =
+        requireCapability(context, kCapabilityLightShafts, "createView with ViewDesc::lightShafts");
   if (status == Status::Ok && desc.lightShafts.method == LightShaftMethod::ShadowVolume) {
     status = requireCapability(context, kCapabilityShadowVolumes,
                                "createView with LightShaftMethod::ShadowVolume");
@@ -37,13 +38,13 @@ Status createView(Context* context, const Tables* tables, const ViewDesc& desc, 
   if (context == nullptr || tables == nullptr || out == nullptr)
     return nullArgument(context, "createView");
   if (&tables->resources() != context->bake) {
-    return context->device->fail(Status::InvalidArgument, VK_SUCCESS,
-                                 "createView got tables of another context, but needs tables of its "
-                                 "own.");
+    return context->device->fail(
+        Status::InvalidArgument, VK_SUCCESS,
+        "createView got tables of another context, but needs tables of its "
+        "own.");
   }
   Status status = requireCapabilities(*context, desc);
-  if (status == Status::Ok)
-    status = view::checkViewDesc(*context->device, tables->desc(), desc);
+  if (status == Status::Ok) status = view::checkViewDesc(*context->device, tables->desc(), desc);
   return status == Status::Ok ? View::create(*context->bake, *tables, desc, out) : status;
 }
 

@@ -119,8 +119,8 @@ ResourceReport Bench::resources() {
 ViewPointer Bench::view(const Drawn& drawn) {
   ViewDesc desc;
   desc.colorFormat = kFormat;
-  desc.disabledEffects = drawn.viewWithout;
-  desc.sky = drawn.sliced ? SkyMethod::Lut : SkyMethod::Integrate;
+  desc.disabledEffects = drawn.viewDisabledEffects;
+  desc.sky = drawn.fromLut ? SkyMethod::Lut : SkyMethod::Integrate;
   View* made = nullptr;
   if (createView(context_, drawn.tables, desc, &made) != Status::Ok) throw Failure(error_);
   return ViewPointer(made, ViewDeleter{device_.get()});
@@ -260,7 +260,7 @@ FrameDesc drawOfRay(const Parameters& parameters, const ProbeQuery& ray, int32_t
 }
 
 FrameDesc drawOfView(const Parameters& parameters, double altitude_m, double sun, double azimuth,
-                   double pitch, double fov, VkExtent2D size) {
+                     double pitch, double fov, VkExtent2D size) {
   FrameDesc draw;
   draw.cameras[0] =
       cameraAt(parameters, draw.world, 0.0, 0.0, altitude_m, 0.0, pitch * kDegree, 0.0);

@@ -36,8 +36,8 @@ using ViewPointer = std::unique_ptr<View, ViewDeleter>;
 struct Drawn {
   const Tables* tables = nullptr;
   TableDesc desc;
-  bool sliced = true;
-  EffectFlags viewWithout = 0;  ///< Of kViewEffects.
+  bool fromLut = true;
+  EffectFlags viewDisabledEffects = 0;  ///< Of kViewEffects.
 };
 
 /// Not thread-safe. Functions throw a Failure.
@@ -66,7 +66,7 @@ class Bench {
 
   /// A view, in a rendering scope of the target's format. Throws.
   ViewPointer view(const Drawn& drawn);
-  /// Seconds of a frame: the slice, if any, and the sky over the whole target.
+  /// Seconds of a frame: the LUT, if any, and the sky over the whole target.
   double frame(View* view, const FrameDesc& draw);
   /// What the target holds after it.
   io::LinearImage read(VkExtent2D size);
@@ -98,6 +98,6 @@ class Bench {
 FrameDesc drawOfRay(const Parameters& parameters, const ProbeQuery& ray, int32_t x);
 /// A camera above latitude 0, longitude 0, with the sun `azimuth` off its heading; degrees.
 FrameDesc drawOfView(const Parameters& parameters, double altitude_m, double sun, double azimuth,
-                   double pitch, double fov, VkExtent2D size);
+                     double pitch, double fov, VkExtent2D size);
 
 }  // namespace alpenglow::cost

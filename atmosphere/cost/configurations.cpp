@@ -21,10 +21,10 @@ TableDesc moments(Quality quality = Quality::Medium) {
   return desc;
 }
 
-TableDesc ofSolver(Solver solver, uint32_t samples = 0) {
+TableDesc ofSolver(Solver solver, uint32_t stepCount = 0) {
   TableDesc desc;
   desc.solver = solver;
-  desc.sizes.stepCount = samples;
+  desc.sizes.stepCount = stepCount;
   return desc;
 }
 
@@ -56,44 +56,46 @@ class List {
   }
 
   void addModels() {
-    add("model", "moments", "moments", moments(), "all orders, level medium, from a sky slice");
+    add("model", "moments", "moments", moments(), "all orders, level medium, from a sky-view LUT");
     add("model", "standard", "standard", ofSolver(Solver::Standard),
-        "5 orders, the paper's table sizes, from a sky slice");
+        "5 orders, the paper's table sizes, from a sky-view LUT");
     TableDesc single = moments();
     single.orders = 1;
     single.disabledEffects = effectBit(Effect::MultipleScattering);
-    add("model", "single (moments)", "single", single, "one order, from a sky slice");
+    add("model", "single (moments)", "single", single, "one order, from a sky-view LUT");
     if (!quick_) {
       TableDesc one = ofSolver(Solver::Standard);
       one.orders = 1;
-      add("model", "single (standard)", "single", one, "one order, from a sky slice");
+      add("model", "single (standard)", "single", one, "one order, from a sky-view LUT");
     }
     add("model", "hoffman-preetham", "hoffman-preetham", ofSolver(Solver::HoffmanPreetham),
         "2002, in closed form; undefined below the horizon")
-        .sliced = false;
-    for (const uint32_t samples :
+        .fromLut = false;
+    for (const uint32_t stepCount :
          quick_ ? std::vector<uint32_t>{10, 30} : std::vector<uint32_t>{5, 10, 20, 50})
-      add("model", "oneil " + std::to_string(samples), "oneil", ofSolver(Solver::ONeil, samples),
-          "2005, one order, " + std::to_string(samples) + " samples a ray")
-          .sliced = false;
+      add("model", "oneil " + std::to_string(stepCount), "oneil",
+          ofSolver(Solver::ONeil, stepCount),
+          "2005, one order, " + std::to_string(stepCount) + " samples a ray")
+          .fromLut = false;
     add("model", "schafhitzel", "schafhitzel", ofSolver(Solver::Schafhitzel),
         "2007, one order, a table without the azimuth")
-        .sliced = false;
-    for (const uint32_t samples :
+        .fromLut = false;
+    for (const uint32_t stepCount :
          quick_ ? std::vector<uint32_t>{32} : std::vector<uint32_t>{16, 32, 64})
-      add("model", "hillaire " + std::to_string(samples), "hillaire",
-          ofSolver(Solver::Hillaire, samples),
-          "2020, sky-view table of " + std::to_string(samples) + " samples a ray");
+      add("model", "hillaire " + std::to_string(stepCount), "hillaire",
+          ofSolver(Solver::Hillaire, stepCount),
+          "2020, sky-view table of " + std::to_string(stepCount) + " samples a ray");
   }
 
   void addLevels() {
     for (const Level& level : kLevels) {
       if (quick_ && level.quality > Quality::Medium) break;
-      add("quality", level.name, "moments", moments(level.quality), "all orders, from a sky slice");
+      add("quality", level.name, "moments", moments(level.quality),
+          "all orders, from a sky-view LUT");
       Configuration& lean =
           add("quality", std::string(level.name) + ", planned", "moments", moments(level.quality),
-              "all orders, from a sky slice, a camera that stays in the air");
-      lean.viewWithout = effectBit(Effect::SpaceViews) | effectBit(Effect::SunDisc);
+              "all orders, from a sky-view LUT, a camera that stays in the atmosphere");
+      lean.viewDisabledEffects = effectBit(Effect::SpaceViews) | effectBit(Effect::SunDisc);
     }
   }
 
@@ -145,7 +147,7 @@ class List {
       TableDesc desc = moments();
       desc.sizes.viewPanels = panels;
       add("samples", "moments, " + std::to_string(2 * panels) + " a piece", "moments", desc,
-          "points on each smooth piece of a ray (12)");
+          "points on each smooth segment of a ray (12)");
     }
   }
 
@@ -171,14 +173,14 @@ class List {
 
   void addLookups() {
     add("lookups", "moments, full lookups", "moments", moments(), "each pixel's ray integrated")
-        .sliced = false;
+        .fromLut = false;
     if (quick_) return;
     add("lookups", "moments draft, full lookups", "moments", moments(Quality::Draft),
         "each pixel's ray integrated")
-        .sliced = false;
+        .fromLut = false;
     TableDesc desc = ofSolver(Solver::Standard);
     desc.sizes = standardSizes(0.5);
-    add("lookups", "standard, full lookups", "standard", desc, "half the sizes").sliced = false;
+    add("lookups", "standard, full lookups", "standard", desc, "half the sizes").fromLut = false;
   }
 
   void addDomains() {
@@ -199,7 +201,7 @@ class List {
     TableDesc day = moments();
     day.sunZenithFrom = 0.01;
     day.sunZenithTo = 80.0 * std::numbers::pi / 180.0;
-    add("domain", "day alone", "moments", day, "suns above 10 degrees").bands = 1;
+    add("domain", "day alone", "moments", day, "sun elevations above 10 degrees").bands = 1;
   }
 
   std::vector<Configuration> take() { return std::move(list_); }

@@ -13,8 +13,8 @@ enum class Storage { AsDesc, SharedExponent };  ///< The latter: tables rounded 
 struct Configuration {
   std::string sweep, name, family, detail;
   TableDesc desc;
-  bool sliced = true;
-  EffectFlags viewWithout = 0;
+  bool fromLut = true;
+  EffectFlags viewDisabledEffects = 0;
   Storage storage = Storage::AsDesc;
   /// Rays and views under this sun alone, at ground level: a domain that is a part of all. 0: all.
   double onlySun_deg = 0.0;

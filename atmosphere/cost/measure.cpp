@@ -49,7 +49,7 @@ Truth wholeRays(const truth::TruthSet& set) {
   for (const truth::TruthQuery& q : truth.set.queries)
     if (q.query.kind == QueryKind::Ray && !q.query.bounded && q.band != truth::Band::Night)
       truth.queries.push_back(&q);
-  // Neighbours share a sky slice.
+  // Neighbours share a sky-view LUT.
   std::ranges::stable_sort(truth.queries, [](const auto* a, const auto* b) {
     return std::pair(a->query.altitude_m, a->query.sunZenith) <
            std::pair(b->query.altitude_m, b->query.sunZenith);
@@ -148,16 +148,15 @@ TablesPointer Sweep::rounded(Tables* tables, const Configuration& configuration)
   return bench_.withSource(all_.set.parameters, desc, tables, rgba);
 }
 
-void Sweep::timeFrames(View* view, const Configuration& configuration,
-                       Row* row) {
-  const bool groundOnly =
-      configuration.onlySun_deg != 0.0 || !hasEffect(configuration.viewWithout, Effect::SpaceViews);
+void Sweep::timeFrames(View* view, const Configuration& configuration, Row* row) {
+  const bool groundOnly = configuration.onlySun_deg != 0.0 ||
+                          !hasEffect(configuration.viewDisabledEffects, Effect::SpaceViews);
   for (uint32_t i = 0; i < kViewCount; ++i) {
     const Look& look = kViews[i];
     if (look.altitude_m > 6e4 && groundOnly) continue;
     const double sun = configuration.onlySun_deg != 0.0 ? configuration.onlySun_deg : look.sun;
     const FrameDesc draw = drawOfView(all_.set.parameters, look.altitude_m, sun, look.azimuth,
-                                    look.pitch, look.fov, {options_.width, options_.height});
+                                      look.pitch, look.fov, {options_.width, options_.height});
     std::vector<double> times;
     bench_.frame(view, draw);
     double budget_s = options_.quick ? 0.6 : 2.0;
@@ -198,17 +197,16 @@ void Sweep::fill(const Configuration& configuration, bool pictured, Row* filled)
     tables = rounded(tables.get(), configuration);
     row.note = "its cost is that of 32-bit floats";
   }
-  Drawn drawn{tables.get(), configuration.desc, configuration.sliced, 0};
+  Drawn drawn{tables.get(), configuration.desc, configuration.fromLut, 0};
   {
     // Rays from everywhere, so with all that a view can draw; frames as configured.
     const ViewPointer view = bench_.view(drawn);
-    row.errors =
-        errorsOf(truth, bench_.radiance(view.get(), truth.set.parameters, truth.rays));
-    // Tables for some suns say nothing of others.
+    row.errors = errorsOf(truth, bench_.radiance(view.get(), truth.set.parameters, truth.rays));
+    // Limited tables are undefined for other sun elevations.
     for (uint32_t band = configuration.bands; band < kBandCount; ++band) row.errors[band] = {};
     if (pictured) pictured_.push_back({configuration.name, pictures(view.get())});
   }
-  drawn.viewWithout = configuration.viewWithout;
+  drawn.viewDisabledEffects = configuration.viewDisabledEffects;
   const ViewPointer view = bench_.view(drawn);
   timeFrames(view.get(), configuration, &row);
   // Whatever was needed once has been freed with its frame.
@@ -220,7 +218,7 @@ std::vector<io::LinearImage> Sweep::pictures(View* view) {
   std::vector<io::LinearImage> result;
   for (const Look& look : kScenes) {
     FrameDesc draw = drawOfView(all_.set.parameters, look.altitude_m, look.sun, look.azimuth,
-                              look.pitch, look.fov, kPicture);
+                                look.pitch, look.fov, kPicture);
     draw.lights[0].discRadius = 0.2667 * std::numbers::pi / 180.0;
     bench_.frame(view, draw);
     result.push_back(bench_.read(kPicture));

@@ -162,7 +162,8 @@ std::string resultOf(const Report& report) {
   html += "</p><p>Against " + std::to_string(rivals) +
           " settings of hillaire, oneil and standard, in four bands of the sun's elevation each, "
           "the question is whether a setting of moments draws a frame in no more time with no "
-          "greater error. Settings called planned leave out what a camera in the air below the top "
+          "greater error. Settings called planned leave out what a camera in the atmosphere below "
+          "the top "
           "of the atmosphere never shows. ";
   if (rivals == 0) return html + "None was measured.</p></div>\n";
   if (exceptions.empty()) return html + "It does in every case.</p></div>\n";
@@ -228,8 +229,8 @@ std::string pageOf(const Report& report) {
       "and, small, the greatest; by the sun's elevation: day from 10&deg;, low from 0&deg;, civil "
       "from &minus;6&deg;, nautical from &minus;12&deg;, astronomical from &minus;18&deg;. Each "
       "ray "
-      "is drawn as a pixel, from a sky slice where the setting has one. Frames are of 640 x 360 "
-      "pixels; from the ground the mean of four suns. Medians, and small the spread. "
+      "is drawn as a pixel, from a sky-view LUT where the setting has one. Frames are of 640 x 360 "
+      "pixels; from the ground the mean of four sun elevations. Medians, and small the spread. "
       "<a href=\"cost.csv\">cost.csv</a> has all figures.</p>\n";
   return html + tableOf(report) + "</body></html>\n";
 }

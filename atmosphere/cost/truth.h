@@ -1,11 +1,11 @@
 // Kept truth: atmospheres, queries and answers of the path tracer in a folder, and the error of an
-// answer against them, as docs/reference.md defines it.
+// answer against them, as docs/reference-solution.md defines it.
 #pragma once
 
 #include <alpenglow/io/result.h>
 #include <alpenglow/parameters.h>
 #include <alpenglow/query.h>
-#include <alpenglow/reference.h>
+#include <alpenglow/reference/reference.h>
 
 #include <string>
 #include <vector>

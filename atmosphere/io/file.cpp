@@ -53,7 +53,7 @@ bool writeAll(int fd, const void* data, size_t size) {
   return true;
 }
 
-// What stands at a path, links followed. Failed: it can't even be told, see errno.
+// What stands at a path, links followed. Failed: the file's type is unknown, see errno.
 enum class Kind { Nothing, Regular, Folder, Pipe, Other, Failed };
 
 Kind kindOf(const std::string& path, mode_t* mode) {
@@ -103,7 +103,7 @@ int descriptorOf(const std::string& path) {
 struct Place {
   std::string path;
   // What /dev/stdout and /dev/fd/N stand for. The file behind one belongs to whoever opened it: it
-  // goes on at its offset, and must not be replaced or opened anew.
+  // goes on at its offset, and must not be replaced or reopened.
   int descriptor = -1;
 };
 

@@ -10,8 +10,8 @@ namespace alpenglow::io {
 /// tiff; null for others.
 const char* imageFormatOf(const std::string& bytes);
 
-/// What can be told before the image library allocates, or prints complaints of its own: empty, or
-/// what is wrong as the end of a sentence. `format` is imageFormatOf's. EXR files may have
+/// What can be checked before the image library allocates, or prints complaints of its own: empty,
+/// or what is wrong as the end of a sentence. `format` is imageFormatOf's. EXR files may have
 /// `maxTexels` texels and 64 channels; the other formats' sizes are left to the caller.
 std::string imageDamage(const std::string& format, const std::string& bytes, uint64_t maxTexels);
 

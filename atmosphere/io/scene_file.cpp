@@ -19,7 +19,7 @@ const std::vector<std::string>& projectionNames() {
   return kNames;
 }
 
-const std::vector<std::string>& shaftNames() {
+const std::vector<std::string>& lightShaftNames() {
   static const std::vector<std::string> kNames = {"auto", "paper", "exact", "march", "off"};
   return kNames;
 }
@@ -191,33 +191,33 @@ void readRange(ObjectReader* reader, const char* key, double least, double most,
   }
 }
 
-SceneNeeds readNeeds(JsonErrors* errors, const Json& value, const Scene& scene) {
+SceneRequirements readRequirements(JsonErrors* errors, const Json& value, const Scene& scene) {
   ObjectReader reader(
       errors, value, "needs.", "",
       {"altitude_m", "sun_elevation_deg", "exposure", "error", "budget_bytes", "budget_seconds"});
-  SceneNeeds needs;
+  SceneRequirements requirements;
   readRange(&reader, "altitude_m", 0.0, kMaxAltitude_m, std::max(scene.camera.altitude_m, 0.0),
-            needs.altitude_m);
+            requirements.altitude_m);
   readRange(&reader, "sun_elevation_deg", -90.0, 90.0, shortestDegrees(scene.sun.elevation),
-            needs.sunElevation);
-  for (std::optional<double>& angle : needs.sunElevation)
+            requirements.sunElevation);
+  for (std::optional<double>& angle : requirements.sunElevation)
     if (angle) angle = radians(*angle);
-  if (reader.has("exposure")) needs.exposure = reader.number("exposure", 1e-12, 1e12);
-  needs.error = reader.numberOr("error", 0.0, 1e-4, 1.0);
-  needs.budgetBytes = static_cast<uint64_t>(reader.numberOr("budget_bytes", 0.0, 1.0, 1e15));
-  needs.budgetSeconds = reader.numberOr("budget_seconds", 0.0, 1e-6, 1e9);
-  return needs;
+  if (reader.has("exposure")) requirements.exposure = reader.number("exposure", 1e-12, 1e12);
+  requirements.error = reader.numberOr("error", 0.0, 1e-4, 1.0);
+  requirements.budgetBytes = static_cast<uint64_t>(reader.numberOr("budget_bytes", 0.0, 1.0, 1e15));
+  requirements.budgetSeconds = reader.numberOr("budget_seconds", 0.0, 1e-6, 1e9);
+  return requirements;
 }
 
-void readShafts(JsonErrors* errors, ObjectReader* reader, Scene* scene) {
-  scene->shafts = static_cast<SceneShafts>(reader->choice("shafts", shaftNames()));
+void readLightShafts(JsonErrors* errors, ObjectReader* reader, Scene* scene) {
+  scene->shafts = static_cast<SceneLightShafts>(reader->choice("shafts", lightShaftNames()));
   if (reader->has("shaft_samples")) {
-    scene->shaftSamples = reader->integer("shaft_samples", 1, kMaxShaftSamples);
+    scene->lightShaftStepCount = reader->integer("shaft_samples", 1, kMaxLightShaftSteps);
   }
   if (reader->has("effects")) {
     readEffects(errors, reader->required("effects"), scene);
     const Force shafts = scene->effects[static_cast<uint32_t>(Effect::LightShafts)];
-    if (shafts == Force::Off) scene->shafts = SceneShafts::Off;
+    if (shafts == Force::Off) scene->shafts = SceneLightShafts::Off;
   }
 }
 
@@ -270,8 +270,9 @@ Scene sceneFromJson(JsonErrors* errors, const Json& value, const std::string& fo
   scene.toneMap = static_cast<ToneMap>(reader.choice("tone_map", toneMapNames()));
   readTableChoices(&reader, &scene);
   readModel(errors, &reader, &scene);
-  readShafts(errors, &reader, &scene);
-  if (reader.given("needs")) scene.needs = readNeeds(errors, reader.required("needs"), scene);
+  readLightShafts(errors, &reader, &scene);
+  if (reader.given("needs"))
+    scene.requirements = readRequirements(errors, reader.required("needs"), scene);
   return scene;
 }
 

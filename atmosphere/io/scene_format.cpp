@@ -114,8 +114,9 @@ void addPicture(const Scene& scene, const Scene& defaults, OrderedJson* value) {
   if (scene.terrain) out["terrain"] = terrainJson(*scene.terrain);
   if (!scene.balloons.empty()) out["balloons"] = balloonsJson(scene.balloons);
   if (scene.stars) out["stars"]["sidereal_hours"] = scene.stars->siderealHours;
-  if (scene.shafts != defaults.shafts) out["shafts"] = nameOf(shaftNames(), scene.shafts);
-  if (scene.shaftSamples != defaults.shaftSamples) out["shaft_samples"] = scene.shaftSamples;
+  if (scene.shafts != defaults.shafts) out["shafts"] = nameOf(lightShaftNames(), scene.shafts);
+  if (scene.lightShaftStepCount != defaults.lightShaftStepCount)
+    out["shaft_samples"] = scene.lightShaftStepCount;
   if (scene.width != defaults.width || scene.height != defaults.height) {
     out["size"] = OrderedJson::array({scene.width, scene.height});
   }
@@ -131,7 +132,7 @@ void addTables(const Scene& scene, const Scene& defaults, OrderedJson* value) {
     out["quality"] = nameOf(qualityNames(), *scene.quality, Quality::Draft);
   }
   if (scene.model != defaults.model) out["model"] = nameOf(modelNames(), scene.model);
-  if (scene.modelSamples) out["model_samples"] = *scene.modelSamples;
+  if (scene.modelStepCount) out["model_samples"] = *scene.modelStepCount;
 }
 
 void addEffects(const Scene& scene, OrderedJson* value) {
@@ -143,20 +144,20 @@ void addEffects(const Scene& scene, OrderedJson* value) {
   if (!effects.empty()) (*value)["effects"] = effects;
 }
 
-OrderedJson needsJson(const SceneNeeds& needs, const Scene& scene) {
+OrderedJson requirementsJson(const SceneRequirements& requirements, const Scene& scene) {
   OrderedJson value = OrderedJson::object();
   const auto addRange = [&](const char* key, const std::optional<double> range[2], double own,
                             double (*shown)(double)) {
     if (!range[0] && !range[1]) return;
     value[key] = OrderedJson::array({shown(range[0].value_or(own)), shown(range[1].value_or(own))});
   };
-  addRange("altitude_m", needs.altitude_m, std::max(scene.camera.altitude_m, 0.0),
+  addRange("altitude_m", requirements.altitude_m, std::max(scene.camera.altitude_m, 0.0),
            [](double metres) { return metres; });
-  addRange("sun_elevation_deg", needs.sunElevation, scene.sun.elevation, shortestDegrees);
-  if (needs.exposure) value["exposure"] = *needs.exposure;
-  if (needs.error != 0.0) value["error"] = needs.error;
-  if (needs.budgetBytes != 0) value["budget_bytes"] = needs.budgetBytes;
-  if (needs.budgetSeconds != 0.0) value["budget_seconds"] = needs.budgetSeconds;
+  addRange("sun_elevation_deg", requirements.sunElevation, scene.sun.elevation, shortestDegrees);
+  if (requirements.exposure) value["exposure"] = *requirements.exposure;
+  if (requirements.error != 0.0) value["error"] = requirements.error;
+  if (requirements.budgetBytes != 0) value["budget_bytes"] = requirements.budgetBytes;
+  if (requirements.budgetSeconds != 0.0) value["budget_seconds"] = requirements.budgetSeconds;
   return value;
 }
 
@@ -179,7 +180,7 @@ std::string formatScene(const Scene& scene) {
   addPicture(scene, defaults, &value);
   addTables(scene, defaults, &value);
   addEffects(scene, &value);
-  if (scene.needs) value["needs"] = needsJson(*scene.needs, scene);
+  if (scene.requirements) value["needs"] = requirementsJson(*scene.requirements, scene);
   return formatJson(value);
 }
 

@@ -19,7 +19,7 @@ void readAtmosphereOf(JsonErrors* errors, const Json& value, const std::string& 
 
 /// How files spell choices, in the order of their values; "orthographic" comes after Projection's.
 const std::vector<std::string>& projectionNames();
-const std::vector<std::string>& shaftNames();
+const std::vector<std::string>& lightShaftNames();
 const std::vector<std::string>& forceNames();
 
 }  // namespace alpenglow::io

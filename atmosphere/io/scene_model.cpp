@@ -1,5 +1,5 @@
 #include "atmosphere/io/scene_model.h"
-#include "atmosphere/model/table_limits.h"
+#include <alpenglow/table_limits.h>
 
 namespace alpenglow::io {
 
@@ -40,7 +40,7 @@ void readModel(JsonErrors* errors, ObjectReader* reader, Scene* scene) {
     scene->orders = 1;
   }
   if (!reader->given("model_samples")) return;
-  scene->modelSamples = reader->integer("model_samples", 1, kMaxStepCount);
+  scene->modelStepCount = reader->integer("model_samples", 1, kMaxStepCount);
   if (scene->model != SceneModel::ONeil && scene->model != SceneModel::Hillaire) {
     reader->wrong("model_samples", because);
   }

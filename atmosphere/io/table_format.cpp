@@ -8,7 +8,7 @@
 #include <iterator>
 #include <string_view>
 
-#include "atmosphere/model/table_limits.h"
+#include <alpenglow/table_limits.h>
 
 namespace alpenglow::io {
 namespace {
@@ -17,14 +17,14 @@ constexpr uint32_t kMomentLayers = 5;  // Of kTableMoments, below each other.
 // The headers of a file stand at its start; the digits are never further in than this.
 constexpr size_t kMaxHeaderBytes = size_t{1} << 20;
 
-constexpr uint32_t TableSizes::* kSizes[] = {
-    &TableSizes::depthMu,         &TableSizes::depthH,         &TableSizes::nodesR,
-    &TableSizes::nodesMuS,        &TableSizes::zenithsSky,     &TableSizes::zenithsLimb,
-    &TableSizes::zenithsGround,   &TableSizes::azimuths,       &TableSizes::degree,
-    &TableSizes::sourceGamma,     &TableSizes::sourcePsi,      &TableSizes::solverPanels,
-    &TableSizes::viewPanels,      &TableSizes::transmittanceMu, &TableSizes::transmittanceR,
-    &TableSizes::irradianceMuS,   &TableSizes::irradianceR,    &TableSizes::scatteringR,
-    &TableSizes::scatteringMu,    &TableSizes::scatteringMuS,  &TableSizes::scatteringNu,
+constexpr uint32_t TableSizes::*kSizes[] = {
+    &TableSizes::depthMu,       &TableSizes::depthH,          &TableSizes::nodesR,
+    &TableSizes::nodesMuS,      &TableSizes::zenithsSky,      &TableSizes::zenithsLimb,
+    &TableSizes::zenithsGround, &TableSizes::azimuths,        &TableSizes::degree,
+    &TableSizes::sourceGamma,   &TableSizes::sourcePsi,       &TableSizes::solverPanels,
+    &TableSizes::viewPanels,    &TableSizes::transmittanceMu, &TableSizes::transmittanceR,
+    &TableSizes::irradianceMuS, &TableSizes::irradianceR,     &TableSizes::scatteringR,
+    &TableSizes::scatteringMu,  &TableSizes::scatteringMuS,   &TableSizes::scatteringNu,
     &TableSizes::stepCount};
 static_assert(sizeof(TableSizes) == std::size(kSizes) * sizeof(uint32_t), "none is forgotten");
 

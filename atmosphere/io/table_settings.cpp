@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "atmosphere/io/table_format.h"
-#include "atmosphere/model/table_limits.h"
+#include <alpenglow/table_limits.h>
 
 namespace alpenglow::io {
 namespace {
@@ -38,7 +38,7 @@ std::string range(const Field& field) {
          std::to_string(field.most);
 }
 
-// 0 when the text is no whole number of at most 9 digits.
+// 0 when the string is no whole number of at most 9 digits.
 uint32_t wholeNumber(const std::string& text) {
   const bool good = !text.empty() && text.size() <= 9 &&
                     text.find_first_not_of("0123456789") == std::string::npos;

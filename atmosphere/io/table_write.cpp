@@ -61,11 +61,13 @@ std::vector<OIIO::ImageSpec> specsOf(const TableFile& file) {
   return specs;
 }
 
-Done checkParts(const TableFile& file) {
+Done checkPartition(const TableFile& file) {
   if (Done done = checkSizes(file.desc); !done) return done;
-  if (file.desc.disabledEffects != 0 || file.desc.sunZenithFrom != 0.0 || file.desc.sunZenithTo != 0.0) {
+  if (file.desc.disabledEffects != 0 || file.desc.sunZenithFrom != 0.0 ||
+      file.desc.sunZenithTo != 0.0) {
     return {
-        "A table file holds whole tables alone, but this description leaves out effects or suns."};
+        "A table file holds whole tables alone, but this description leaves out effects or sun "
+        "elevations."};
   }
   if (file.desc.solver == Solver::Moments && file.desc.quality == Quality::Default) {
     return {"A table file names its level of quality, but this description has none."};
@@ -132,7 +134,7 @@ Done sealAndVerify(const std::string& path, const TableFile& file) {
 }  // namespace
 
 Done writeTableFile(const std::string& path, const TableFile& file) try {
-  if (Done done = checkParts(file); !done) return done;
+  if (Done done = checkPartition(file); !done) return done;
   Result<PendingFile> pending = PendingFile::create(path);
   if (!pending) return {pending.error};
   Done done = encode(pending->path(), file);

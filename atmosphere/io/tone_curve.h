@@ -1,4 +1,4 @@
-// The tone maps of shaders/glsl/alpenglow/tone_map.glsl as C++: the same text.
+// The tone maps of shaders/glsl/alpenglow/tone_map.glsl as C++: the same source.
 #pragma once
 
 #include <algorithm>

@@ -14,7 +14,7 @@ constexpr const char* kNames[kLevels] = {"draft", "low", "medium", "high", "ultr
 /// 95th percentiles by level and band (day, low, civil, nautical, astronomical), per cent:
 /// docs/accuracy.md. A level is credited with no less than a finer one has.
 struct Measured {
-  const char* air;
+  const char* medium;
   double percent[kLevels][kBands];
 };
 constexpr Measured kClear = {"clear air",
@@ -40,8 +40,8 @@ constexpr Measured kNarrow = {"haze of g up to 0.88",
 /// Airs of which only medium was measured (haze93; thick5 and mie-only), or none like it: haze85's
 /// times the worst ratio of these to it, band by band.
 constexpr double kUnknown[kBands] = {3.7, 3.2, 2.1, 2.3, 2.4};
-/// The sky slice's own share (docs/stability.md).
-constexpr double kSlice[kLevels] = {0.64, 0.27, 0.09, 0.09, 0.09};
+/// The sky-view LUT's own share (docs/luts.md).
+constexpr double kLut[kLevels] = {0.64, 0.27, 0.09, 0.09, 0.09};
 
 struct Band {
   double from, to;  ///< Degrees of elevation.
@@ -56,31 +56,33 @@ struct Class {
 };
 
 Class classOf(const Parameters& parameters) {
-  const Air air = airOf(parameters);
+  const MediumTraits medium = mediumTraits(parameters);
   const bool molecules = parameters.rayleigh.present;
-  if (!molecules || air.scattering > 4.0 || air.peakAsymmetry > 0.88) return {&kNarrow, false};
-  if (air.peakAsymmetry > 0.80) return {&kNarrow, true};
-  if (air.scattering > 0.35 || !air.likeEarth) return {&kHazy, true};
+  if (!molecules || medium.scattering > 4.0 || medium.peakAsymmetry > 0.88)
+    return {&kNarrow, false};
+  if (medium.peakAsymmetry > 0.80) return {&kNarrow, true};
+  if (medium.scattering > 0.35 || !medium.likeEarth) return {&kHazy, true};
   return {&kClear, true};
 }
 
 double errorOf(const Parameters& parameters, const Plan& plan, uint32_t level) {
-  const Class air = classOf(parameters);
-  const SunRange suns = widened(parameters, plan.request);
+  const Class medium = classOf(parameters);
+  const SunRange elevations = widened(parameters, plan.request);
   // What can't be seen has no error.
   const bool dark = isOn(plan, Effect::Twilight) || isOn(plan, Effect::Night);
-  const double from = dark ? suns.from : std::max(suns.from, std::min(0.0, suns.to));
+  const double from =
+      dark ? elevations.from : std::max(elevations.from, std::min(0.0, elevations.to));
   double worst = 0.0;
   for (uint32_t band = 0; band < kBands; ++band) {
     const Band& ends = kBandEnds[band];
     const bool last = band + 1 == kBands;
-    const bool reached = suns.to >= ends.from * kDegree && from < ends.to * kDegree;
-    const bool darker = last && suns.to < ends.from * kDegree;
+    const bool reached = elevations.to >= ends.from * kDegree && from < ends.to * kDegree;
+    const bool darker = last && elevations.to < ends.from * kDegree;
     if (!reached && !darker) continue;
-    const double factor = air.known ? 1.0 : kUnknown[band];
-    worst = std::max(worst, air.measured->percent[level][band] * factor);
+    const double factor = medium.known ? 1.0 : kUnknown[band];
+    worst = std::max(worst, medium.measured->percent[level][band] * factor);
   }
-  return (worst + (drawsFromLut(plan) ? kSlice[level] : 0.0)) / 100.0;
+  return (worst + (drawsFromLut(plan) ? kLut[level] : 0.0)) / 100.0;
 }
 
 double percent(double share) { return std::round(share * 1e4) / 100.0; }
@@ -89,13 +91,13 @@ double degrees(double radians) { return std::round(radians / kDegree * 100.0) / 
 void describeSuns(Plan* plan) {
   const TableDesc& base = plan->request.tables;
   const TableDesc& desc = plan->tables;
-  model::Sentence value, why;
+  parameters::Sentence value, why;
   const bool any = desc.sunZenithFrom == 0.0 && desc.sunZenithTo == 0.0;
   if (any) {
     value << "any";
     why << (desc.solver == Solver::Moments
                 ? "The sun's range, widened to the horizon's, leaves nothing out."
-                : "Only tables of the solver moments can be made for some suns.");
+                : "Only tables of the solver moments can be limited to a range of sun elevations.");
   } else {
     value << degrees(desc.sunZenithFrom) << " to " << degrees(desc.sunZenithTo)
           << " degrees from the zenith";
@@ -114,15 +116,16 @@ void describeDepths(Plan* plan) {
   const TableDesc& base = plan->request.tables;
   const TableSizes& settings = plan->tables.sizes;
   if (settings.depthMu == base.sizes.depthMu && settings.depthH == base.sizes.depthH) return;
-  model::Sentence value, why;
+  parameters::Sentence value, why;
   value << settings.depthMu << " x " << settings.depthH;
-  why << "Beside tables for few suns that of optical depths is the largest, and so many texels "
+  why << "Beside tables for a short range of sun elevations that of optical depths is the largest, "
+         "and so many texels "
          "cost no accuracy that shows.";
   addChoice(plan, "optical_depths", value, why);
 }
 
 void describeAltitude(const Parameters& parameters, Plan* plan) {
-  model::Sentence value, why;
+  parameters::Sentence value, why;
   value << "0 to " << parameters.topRadius_m - parameters.bottomRadius_m << " m";
   why << "Light on a ray comes from air of every height, so tables hold all of it.";
   addChoice(plan, "altitude", value, why);
@@ -130,7 +133,7 @@ void describeAltitude(const Parameters& parameters, Plan* plan) {
 
 void describeOrders(uint32_t solved, Plan* plan) {
   const TableDesc& base = plan->request.tables;
-  model::Sentence value, why;
+  parameters::Sentence value, why;
   const bool multiple = isOn(*plan, Effect::MultipleScattering) || base.orders > 1;
   if (base.solver != Solver::Moments && base.solver != Solver::Standard) return;
   if (base.orders != 0) {
@@ -150,35 +153,35 @@ void describeOrders(uint32_t solved, Plan* plan) {
   addChoice(plan, "orders", value, why);
 }
 
-void describeSlice(Plan* plan) {
-  model::Sentence value, why;
+void describeSkyViewLut(Plan* plan) {
+  parameters::Sentence value, why;
   value << (drawsFromLut(*plan) ? "on" : "off");
   if (drawsFromLut(*plan)) {
-    why << "A frame has more pixels than the slice has rays, so light is looked up in it.";
+    why << "A frame has more pixels than the LUT has rays, so light is looked up in it.";
   } else if (plan->request.view.projection == Projection::Orthographic) {
     why << "Each ray of an orthographic camera has an observer of its own.";
   } else {
-    why << "This solver makes no slice for cameras above the air.";
+    why << "This solver makes no sky-view LUT for cameras above the atmosphere.";
   }
-  addChoice(plan, "sky_slice", value, why);
+  addChoice(plan, "sky_view_lut", value, why);
 }
 
-void describeShafts(Plan* plan) {
-  if (!drawsShafts(*plan)) return;
-  model::Sentence value, why;
+void describeLightShafts(Plan* plan) {
+  if (!drawsLightShafts(*plan)) return;
+  parameters::Sentence value, why;
   constexpr const char* kMethods[] = {"exact", "paper", "march"};
   value << kMethods[static_cast<uint32_t>(plan->view.lightShafts.method) - 1];
-  why << "Exact shafts take any casters and no samples along a ray.";
+  why << "The light-volume mesh takes any casters and no steps along a ray.";
   addChoice(plan, "shafts", value, why);
 }
 
 void describeQuality(const Parameters& parameters, Quality unbound, Plan* plan) {
   const TableDesc& base = plan->request.tables;
   if (base.solver != Solver::Moments) return;
-  const Class air = classOf(parameters);
+  const Class medium = classOf(parameters);
   const Quality level = levelOf(plan->tables.quality);
   const double wanted = percent(wantedError(plan->request));
-  model::Sentence value, why;
+  parameters::Sentence value, why;
   value << levelName(level);
   if (base.quality != Quality::Default) {
     why << "Given by the host";
@@ -189,8 +192,8 @@ void describeQuality(const Parameters& parameters, Quality unbound, Plan* plan) 
   } else {
     why << "No level up to it meets " << wanted << " %";
   }
-  why << ": in " << air.measured->air << " its error under these suns is "
-      << (air.known ? "up to " : "estimated as ") << percent(plan->expectedError) << " %.";
+  why << ": in " << medium.measured->medium << " its error at these sun elevations is "
+      << (medium.known ? "up to " : "estimated as ") << percent(plan->expectedError) << " %.";
   addChoice(plan, "quality", value, why);
 }
 
@@ -239,8 +242,8 @@ void describeChoices(const Parameters& parameters, uint32_t solvedOrders, Qualit
   describeAltitude(parameters, plan);
   describeQuality(parameters, unbound, plan);
   describeOrders(solvedOrders, plan);
-  describeSlice(plan);
-  describeShafts(plan);
+  describeSkyViewLut(plan);
+  describeLightShafts(plan);
 }
 
 }  // namespace alpenglow::plan

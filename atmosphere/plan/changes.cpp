@@ -64,9 +64,9 @@ bool sameShape(const TableDesc& a, const TableDesc& b) {
 
 bool coversTables(const TableDesc& has, const TableDesc& asked) {
   return has.solver == asked.solver && has.orders == asked.orders && has.format == asked.format &&
-         has.quality == asked.quality && has.mie == asked.mie && has.disabledEffects == asked.disabledEffects &&
-         has.sunZenithFrom == asked.sunZenithFrom && has.sunZenithTo == asked.sunZenithTo &&
-         sameShape(has, asked);
+         has.quality == asked.quality && has.mie == asked.mie &&
+         has.disabledEffects == asked.disabledEffects && has.sunZenithFrom == asked.sunZenithFrom &&
+         has.sunZenithTo == asked.sunZenithTo && sameShape(has, asked);
 }
 
 bool covers(const Plan& plan, const PlanRequest& request) {
@@ -89,12 +89,14 @@ const char* tableChange(const Plan& has, const Plan& asked) {
     return "The tables are of another solver or format.";
   if (!sameShape(has.request.tables, asked.request.tables))
     return "The tables have other sizes than are given.";
-  if (!holdsSuns(a, b)) return "The tables don't reach all suns that may come.";
-  if ((a.disabledEffects & ~b.disabledEffects) != 0) return "The tables are without an effect that is on now.";
+  if (!holdsSuns(a, b)) return "The tables don't cover all requested sun elevations.";
+  if ((a.disabledEffects & ~b.disabledEffects) != 0)
+    return "The tables lack an effect that is enabled now.";
   const bool forced = ((b.disabledEffects & ~a.disabledEffects) & kTableEffects) != 0;
   if (forced) {
     for (uint32_t i = 0; i < kEffectCount; ++i) {
-      const bool off = (b.disabledEffects & ~a.disabledEffects & effectBit(static_cast<Effect>(i))) != 0;
+      const bool off =
+          (b.disabledEffects & ~a.disabledEffects & effectBit(static_cast<Effect>(i))) != 0;
       if (off && asked.choices[i].forced)
         return "The tables hold an effect that has been turned off.";
     }
@@ -107,18 +109,22 @@ const char* tableChange(const Plan& has, const Plan& asked) {
 }
 
 const char* viewChange(const Plan& has, const Plan& asked) {
-  if (has.request.view.projection != asked.request.view.projection) return "The view has another projection.";
+  if (has.request.view.projection != asked.request.view.projection)
+    return "The view has another projection.";
   if ((has.view.disabledEffects & ~asked.view.disabledEffects & kViewEffects) != 0)
-    return "The view is without an effect that is on now.";
-  if (plan::drawsAerial(asked) && !plan::drawsAerial(has)) return "The view draws no air before a scene.";
-  if (plan::drawsFromLut(has) && !plan::drawsFromLut(asked)) return "The view draws from a slice alone.";
+    return "The view lacks an effect that is enabled now.";
+  if (plan::drawsAerial(asked) && !plan::drawsAerial(has))
+    return "The view draws no aerial perspective.";
+  if (plan::drawsFromLut(has) && !plan::drawsFromLut(asked))
+    return "The view draws from its LUT alone.";
   return nullptr;
 }
 
-const char* shaftChange(const Plan& has, const Plan& asked) {
-  if (!plan::drawsShafts(asked)) return nullptr;
-  if (!plan::drawsShafts(has)) return "Light shafts are on now.";
-  if (has.view.lightShafts.method != asked.view.lightShafts.method) return "Light shafts have another method.";
+const char* lightShaftChange(const Plan& has, const Plan& asked) {
+  if (!plan::drawsLightShafts(asked)) return nullptr;
+  if (!plan::drawsLightShafts(has)) return "Light shafts are on now.";
+  if (has.view.lightShafts.method != asked.view.lightShafts.method)
+    return "Light shafts have another method.";
   return nullptr;
 }
 
@@ -130,11 +136,11 @@ RecreateFlags comparePlans(const Plan& current, const Plan& next, const Diagnost
   if (covers(current, next.request)) return 0;
   const char* tables = tableChange(current, next);
   const char* view = viewChange(current, next);
-  if (view == nullptr) view = shaftChange(current, next);
+  if (view == nullptr) view = lightShaftChange(current, next);
   const TableDesc &a = current.tables, &b = next.tables;
   // A view is of tables of one kind.
-  const bool other = a.disabledEffects != b.disabledEffects || a.solver != b.solver || a.mie != b.mie ||
-                     plan::levelOf(a.quality) != plan::levelOf(b.quality);
+  const bool other = a.disabledEffects != b.disabledEffects || a.solver != b.solver ||
+                     a.mie != b.mie || plan::levelOf(a.quality) != plan::levelOf(b.quality);
   RecreateFlags flags = 0;
   if (tables != nullptr) flags |= kRecreateTables;
   if (view != nullptr || (tables != nullptr && other)) flags |= kRecreateView;

@@ -30,17 +30,17 @@ PlanCost difference(const PlanCost& more, const PlanCost& less) {
 
 ImageInfo shadowMapImage() {
   ImageInfo info;
-  info.name = "sun map";
-  info.extent = {kSunMapSize, kSunMapSize, 1};
-  info.bytes = uint64_t{kSunMapSize} * kSunMapSize * 4;
+  info.name = "shadow map";
+  info.extent = {kShadowMapSize, kShadowMapSize, 1};
+  info.bytes = uint64_t{kShadowMapSize} * kShadowMapSize * 4;
   return info;
 }
 
-PlanCost shaftCost(const Plan& plan) {
+PlanCost lightShaftCost(const Plan& plan) {
   PlanCost cost;
-  if (!drawsShafts(plan)) return cost;
+  if (!drawsLightShafts(plan)) return cost;
   cost.images = 1;
-  cost.texels = uint64_t{kSunMapSize} * kSunMapSize;
+  cost.texels = uint64_t{kShadowMapSize} * kShadowMapSize;
   cost.bytes = shadowMapImage().bytes;
   cost.pipelines = 3 + (drawsFromLut(plan) ? 1 : 0);
   cost.dispatches = 1;

@@ -1,4 +1,4 @@
-// Over which suns the tables reach, and which of them can be seen at all.
+// Which sun elevations the tables cover, and which of them can be seen at all.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -35,20 +35,20 @@ double horizonArc(double radius_m, double altitude_m) {
 
 SunRange widened(const Parameters& parameters, const PlanRequest& request) {
   SunRange range = sunRange(request);
-  const Air air = airOf(parameters);
+  const MediumTraits medium = mediumTraits(parameters);
   double arc = request.altitudeTo_m == 0.0
                    ? kRightAngle
                    : horizonArc(parameters.bottomRadius_m, request.altitudeTo_m);
-  if (mayBeInSpace(air, request)) arc += air.dipOfTop;
+  if (mayBeInSpace(medium, request)) arc += medium.dipOfTop;
   range.from = std::max(range.from - arc, -kRightAngle);
   range.to = std::min(range.to + arc, kRightAngle);
   return range;
 }
 
-double lowestVisibleSun(const Air& air, double brightest, double exposure) {
+double lowestVisibleSun(const MediumTraits& medium, double brightest, double exposure) {
   if (exposure == 0.0) return -kRightAngle;
   for (const Twilight& at : kTwilight) {
-    const double light = (air.likeEarth ? at.earth : at.mars) * brightest * kMargin;
+    const double light = (medium.likeEarth ? at.earth : at.mars) * brightest * kMargin;
     if (light * exposure < kHalfStep) return -at.depression * kDegree;
   }
   return -kRightAngle;

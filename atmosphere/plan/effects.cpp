@@ -17,14 +17,14 @@ class Decider {
         base_(plan->request.tables),
         plan_(plan),
         request_(plan->request),
-        air_(airOf(parameters)),
+        medium_(mediumTraits(parameters)),
         error_(wantedError(plan->request)),
         range_(widened(parameters, plan->request)) {}
 
   void decide() {
-    matter(Effect::Rayleigh, p_.rayleigh.present, air_.rayleighShare, "molecules");
-    matter(Effect::Mie, p_.mie.present, air_.mieShare, "aerosols");
-    matter(Effect::Absorption, p_.absorption.present, air_.absorptionShare, "absorbing layer");
+    matter(Effect::Rayleigh, p_.rayleigh.present, medium_.rayleighShare, "molecules");
+    matter(Effect::Mie, p_.mie.present, medium_.mieShare, "aerosols");
+    matter(Effect::Absorption, p_.absorption.present, medium_.absorptionShare, "absorbing layer");
     multiple();
     reflection();
     irradiance();
@@ -38,30 +38,30 @@ class Decider {
  private:
   bool on(Effect effect) const { return isOn(*plan_, effect); }
 
-  void write(Effect effect, bool on, bool forced, const model::Sentence& reason) {
+  void write(Effect effect, bool on, bool forced, const parameters::Sentence& reason) {
     PlanChoice& choice = choiceOf(plan_, effect);
     choice = {};
-    (model::Sentence() << effectName(effect)).copyTo(choice.name, sizeof choice.name);
-    (model::Sentence() << (on ? "on" : "off")).copyTo(choice.value, sizeof choice.value);
+    (parameters::Sentence() << effectName(effect)).copyTo(choice.name, sizeof choice.name);
+    (parameters::Sentence() << (on ? "on" : "off")).copyTo(choice.value, sizeof choice.value);
     choice.on = on;
     choice.forced = forced;
     copyReason(reason, &choice);
   }
 
   // What the host decides beats what is found here.
-  void set(Effect effect, bool on, const model::Sentence& reason) {
+  void set(Effect effect, bool on, const parameters::Sentence& reason) {
     const Force force = request_.effects[static_cast<uint32_t>(effect)];
-    model::Sentence why;
+    parameters::Sentence why;
     const bool table = (kTableEffects & effectBit(effect)) != 0;
     if (force != Force::Auto) {
       const bool forcedOn = force == Force::On;
       why << "Turned " << (forcedOn ? "on" : "off") << " by the scene.";
       write(effect, forcedOn, true, why);
     } else if (table && !hasEffect(base_.disabledEffects, effect)) {
-      why << "The given description of the tables is without it.";
+      why << "The given description of the tables disables it.";
       write(effect, false, true, why);
     } else if (table && base_.solver != Solver::Moments) {
-      why << "Only tables of the solver moments can be without it.";
+      why << "Only tables of the solver moments can disable it.";
       write(effect, true, false, why);
     } else {
       write(effect, on, false, reason);
@@ -70,11 +70,11 @@ class Decider {
 
   // Whatever the host says, it can't be.
   void impossible(Effect effect, const char* reason) {
-    write(effect, false, false, model::Sentence() << reason);
+    write(effect, false, false, parameters::Sentence() << reason);
   }
 
   void matter(Effect effect, bool present, double share, const char* what) {
-    model::Sentence why;
+    parameters::Sentence why;
     const bool counts = present && share > error_;
     if (!present || share <= 0.0) {
       why << "The atmosphere has no " << what << ".";
@@ -91,10 +91,10 @@ class Decider {
   // Of light of two events against that of one: the second event meets light from all around, of
   // ways as long as the logarithm of the longest; in twilight it comes where the first can't.
   void multiple() {
-    model::Sentence why;
-    const double ways = 1.0 + std::log1p(air_.longest / std::max(air_.scattering, 1e-12));
-    const double share = 2.0 * air_.scattering * ways * (range_.from < 0.0 ? 10.0 : 1.0) +
-                         (reflects() ? 2.0 * air_.albedo : 0.0);
+    parameters::Sentence why;
+    const double ways = 1.0 + std::log1p(medium_.longest / std::max(medium_.scattering, 1e-12));
+    const double share = 2.0 * medium_.scattering * ways * (range_.from < 0.0 ? 10.0 : 1.0) +
+                         (reflects() ? 2.0 * medium_.albedo : 0.0);
     const bool one = base_.orders == 1;
     const bool counts = !one && (share > error_ || base_.orders > 1);
     if (one) {
@@ -112,18 +112,18 @@ class Decider {
   }
 
   double reflected() const {
-    return 2.0 * air_.albedo * std::min(1.0, std::max(std::sin(range_.to), 0.0) + 0.3);
+    return 2.0 * medium_.albedo * std::min(1.0, std::max(std::sin(range_.to), 0.0) + 0.3);
   }
   bool reflects() const { return reflected() > error_; }
 
   void reflection() {
     if (base_.solver == Solver::Moments && !on(Effect::MultipleScattering)) {
       impossible(Effect::GroundReflection,
-                 "Light from the ground into the air is of two events, which are left out.");
+                 "Light from the ground into the atmosphere is of two events, which are left out.");
       return;
     }
-    model::Sentence why;
-    why << "The ground's albedo of up to " << air_.albedo << " gives the air at most "
+    parameters::Sentence why;
+    why << "The ground's albedo of up to " << medium_.albedo << " gives the atmosphere at most "
         << percent(reflected()) << " % of its light, " << (reflects() ? "more than" : "within")
         << " the wanted " << percent(error_) << " %.";
     set(Effect::GroundReflection, reflects(), why);
@@ -136,7 +136,7 @@ class Decider {
       return;
     }
     const bool ground = sees(request_, kVisibleGround), terrain = sees(request_, kVisibleScene);
-    model::Sentence why;
+    parameters::Sentence why;
     if (ground || terrain) {
       why << (ground ? "The ground" : "The scene's terrain")
           << " may be in view, and the sky lights it.";
@@ -147,12 +147,12 @@ class Decider {
   }
 
   void seen() {
-    model::Sentence ground, disc, air;
+    parameters::Sentence ground, disc, medium;
     ground << "The ground " << (sees(request_, kVisibleGround) ? "may come" : "doesn't come")
            << " into view.";
     set(Effect::Ground, sees(request_, kVisibleGround), ground);
     if (request_.view.projection == Projection::Orthographic && !on(Effect::Ground)) {
-      model::Sentence why;
+      parameters::Sentence why;
       why << "Rays of an orthographic camera may end on the ground.";
       write(Effect::Ground, true, false, why);
     }
@@ -170,9 +170,10 @@ class Decider {
                  "A fisheye view has no depth image: a host's scene is drawn as triangles.");
       return;
     }
-    air << (sees(request_, kVisibleScene) ? "The host's scene may stand in the air in view."
-                                          : "No scene of the host's comes into view.");
-    set(Effect::AerialPerspective, sees(request_, kVisibleScene), air);
+    medium << (sees(request_, kVisibleScene)
+                   ? "The host's scene may stand in the atmosphere in view."
+                   : "No scene of the host's comes into view.");
+    set(Effect::AerialPerspective, sees(request_, kVisibleScene), medium);
   }
 
   void shafts() {
@@ -182,12 +183,12 @@ class Decider {
     }
     if (!on(Effect::AerialPerspective)) {
       impossible(Effect::LightShafts,
-                 "Shadows in the air fall from a scene of the host's, and none is in view.");
+                 "Shadows in the atmosphere fall from a scene of the host's, and none is in view.");
       return;
     }
-    const double lowest = -air_.dipOfTop - kDegree;
+    const double lowest = -medium_.dipOfTop - kDegree;
     const bool lit = range_.to > lowest;
-    model::Sentence why;
+    parameters::Sentence why;
     if (!request_.casters) {
       why << "Nothing casts shadows.";
     } else if (lit) {
@@ -201,36 +202,38 @@ class Decider {
   }
 
   void space() {
-    const bool high = mayBeInSpace(air_, request_);
+    const bool high = mayBeInSpace(medium_, request_);
     if (request_.view.projection == Projection::Orthographic && !high) {
-      model::Sentence why;
-      why << "Rays of an orthographic camera may begin above the air.";
+      parameters::Sentence why;
+      why << "Rays of an orthographic camera may begin above the atmosphere.";
       write(Effect::SpaceViews, true, false, why);
       return;
     }
-    model::Sentence why;
+    parameters::Sentence why;
     if (request_.altitudeTo_m == 0.0) {
-      why << "The camera's altitude has no limit; the air ends at " << air_.thickness_m << " m.";
+      why << "The camera's altitude has no limit; the atmosphere ends at " << medium_.thickness_m
+          << " m.";
     } else {
       why << "The camera stays between " << request_.altitudeFrom_m << " and "
           << request_.altitudeTo_m << " m"
-          << (high ? ", and the air ends at " : ", below the top of the air at ")
-          << air_.thickness_m << " m.";
+          << (high ? ", and the atmosphere ends at " : ", below the top of the atmosphere at ")
+          << medium_.thickness_m << " m.";
     }
     set(Effect::SpaceViews, high, why);
   }
 
-  // The lowest sun whose light is seen: only where the table of brightness holds, low in the air.
+  // The lowest sun whose light is seen: only where the table of brightness holds, low in the
+  // atmosphere.
   double visible() const {
     const bool low = request_.altitudeTo_m > 0.0 && request_.altitudeTo_m <= 3000.0;
     const double brightest =
         *std::max_element(p_.solarIrradiance.value, p_.solarIrradiance.value + kSpectrumSize);
-    return low ? lowestVisibleSun(air_, brightest, request_.exposure) : lowestSun();
+    return low ? lowestVisibleSun(medium_, brightest, request_.exposure) : lowestSun();
   }
 
   void dark(Effect effect, double above, const char* called, bool reaches) {
     const double lowest = visible();
-    model::Sentence why;
+    parameters::Sentence why;
     const bool hidden = reaches && lowest >= above;
     why << "The sun, from " << degrees(range_.from) << " to " << degrees(range_.to)
         << " degrees high over all places in view, ";
@@ -255,13 +258,13 @@ class Decider {
   const TableDesc& base_;
   Plan* plan_;
   const PlanRequest& request_;
-  Air air_;
+  MediumTraits medium_;
   double error_;
   SunRange range_;
 };
 
-// Suns of the tables: those of the request, less what can't be seen, and more where an effect is on
-// all the same.
+// Sun elevations of the tables: those of the request, less what can't be seen, and more where an
+// effect is on all the same.
 SunRange tableSuns(const Parameters& parameters, const Plan& plan) {
   const SunRange all = widened(parameters, plan.request);
   double from = all.from;
@@ -285,34 +288,40 @@ void applyEffects(const Parameters& parameters, Plan* plan) {
   const auto on = [plan](Effect effect) { return isOn(*plan, effect); };
   const TableDesc& base = plan->request.tables;
   TableDesc& desc = plan->tables;
-  EffectFlags without = 0;
+  EffectFlags disabledEffects = 0;
   for (uint32_t i = 0; i < kEffectCount; ++i)
-    if (!plan->choices[i].on) without |= effectBit(static_cast<Effect>(i));
+    if (!plan->choices[i].on) disabledEffects |= effectBit(static_cast<Effect>(i));
   const bool moments = desc.solver == Solver::Moments;
-  desc.disabledEffects = moments ? without & kTableEffects : base.disabledEffects;
-  plan->view.disabledEffects = (without & kViewEffects) | desc.disabledEffects;
+  desc.disabledEffects = moments ? disabledEffects & kTableEffects : base.disabledEffects;
+  plan->view.disabledEffects = (disabledEffects & kViewEffects) | desc.disabledEffects;
   if (moments && base.sunZenithFrom == 0.0 && base.sunZenithTo == 0.0) {
     constexpr double kRightAngle = 90.0 * kDegree;
-    const SunRange suns = tableSuns(parameters, *plan);
-    const bool any = suns.from <= -kRightAngle && suns.to >= kRightAngle;
-    desc.sunZenithFrom = any ? 0.0 : std::max(kRightAngle - suns.to, 0.0);
+    const SunRange elevations = tableSuns(parameters, *plan);
+    const bool any = elevations.from <= -kRightAngle && elevations.to >= kRightAngle;
+    desc.sunZenithFrom = any ? 0.0 : std::max(kRightAngle - elevations.to, 0.0);
     // Both zero would be any sun.
-    desc.sunZenithTo = any ? 0.0 : std::clamp(kRightAngle - suns.from, 1e-6, 2.0 * kRightAngle);
+    desc.sunZenithTo =
+        any ? 0.0 : std::clamp(kRightAngle - elevations.from, 1e-6, 2.0 * kRightAngle);
   }
   const bool slices = desc.solver == Solver::Standard || desc.solver == Solver::Hillaire;
   plan->view.sky = (plan->request.view.projection != Projection::Orthographic &&
-                   (moments || (slices && !on(Effect::SpaceViews)))) ? SkyMethod::Lut : SkyMethod::Integrate;
-  if (!on(Effect::AerialPerspective)) plan->view.aerialPerspective = AerialPerspective::Off;
+                    (moments || (slices && !on(Effect::SpaceViews))))
+                       ? SkyMethod::Lut
+                       : SkyMethod::Integrate;
+  if (!on(Effect::AerialPerspective))
+    plan->view.aerialPerspective = AerialPerspective::Off;
   else if (plan->view.aerialPerspective == AerialPerspective::Off)
     plan->view.aerialPerspective = AerialPerspective::On;
-  if (!on(Effect::LightShafts)) plan->view.lightShafts.method = LightShaftMethod::Off;
+  if (!on(Effect::LightShafts))
+    plan->view.lightShafts.method = LightShaftMethod::Off;
   else if (plan->view.lightShafts.method == LightShaftMethod::Off)
     plan->view.lightShafts.method = LightShaftMethod::LightVolume;
   plan->capabilities = kCapabilityBake | kCapabilitySky;
-  if (drawsAerial(*plan)) plan->capabilities |= kCapabilityAir;
-  if (drawsShafts(*plan)) {
-    plan->capabilities |= kCapabilityShafts;
-    if (plan->view.lightShafts.method == LightShaftMethod::ShadowVolume) plan->capabilities |= kCapabilityShadowVolumes;
+  if (drawsAerial(*plan)) plan->capabilities |= kCapabilityAerialPerspective;
+  if (drawsLightShafts(*plan)) {
+    plan->capabilities |= kCapabilityLightShafts;
+    if (plan->view.lightShafts.method == LightShaftMethod::ShadowVolume)
+      plan->capabilities |= kCapabilityShadowVolumes;
   }
 }
 

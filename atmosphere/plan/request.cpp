@@ -17,12 +17,12 @@ struct Field {
   double value, least, most;
 };
 
-Status wrong(model::Sentence* why, const char* field, double value, const char* mustBe) {
+Status wrong(parameters::Sentence* why, const char* field, double value, const char* mustBe) {
   *why << "PlanRequest::" << field << " is " << value << ", but must be " << mustBe << ".";
   return Status::InvalidArgument;
 }
 
-Status checkRanges(const PlanRequest& n, model::Sentence* why) {
+Status checkRanges(const PlanRequest& n, parameters::Sentence* why) {
   if (n.altitudeTo_m != 0.0 && n.altitudeTo_m < n.altitudeFrom_m)
     return wrong(why, "altitudeTo_m", n.altitudeTo_m, "at least altitudeFrom_m, or 0 for no limit");
   if (n.sunElevationTo < n.sunElevationFrom)
@@ -34,7 +34,7 @@ Status checkRanges(const PlanRequest& n, model::Sentence* why) {
 
 }  // namespace
 
-Status checkRequest(const PlanRequest& n, model::Sentence* why) {
+Status checkRequest(const PlanRequest& n, parameters::Sentence* why) {
   const Field fields[] = {{"altitudeFrom_m", n.altitudeFrom_m, 0.0, 1e12},
                           {"altitudeTo_m", n.altitudeTo_m, 0.0, 1e12},
                           {"sunElevationFrom", n.sunElevationFrom, -kRightAngle, kRightAngle},
@@ -63,7 +63,7 @@ Status checkRequest(const PlanRequest& n, model::Sentence* why) {
   return checkRanges(n, why);
 }
 
-Status checkTables(const PlanRequest& request, model::Sentence* why) {
+Status checkTables(const PlanRequest& request, parameters::Sentence* why) {
   const TableDesc& base = request.tables;
   const bool single = request.effects[uint32_t(Effect::MultipleScattering)] == Force::Off ||
                       !hasEffect(base.disabledEffects, Effect::MultipleScattering);
@@ -77,7 +77,7 @@ Status checkTables(const PlanRequest& request, model::Sentence* why) {
     const auto effect = static_cast<Effect>(i);
     if ((kTableEffects & effectBit(effect)) == 0 || request.effects[i] != Force::Off) continue;
     *why << "PlanRequest::effects turns " << effectName(effect)
-         << " off, but only tables of Solver::Moments may be without it.";
+         << " off, but only tables of Solver::Moments may disable it.";
     return Status::InvalidArgument;
   }
   return Status::Ok;
@@ -98,22 +98,22 @@ SunRange sunRange(const PlanRequest& request) {
   return {request.sunElevationFrom, request.sunElevationTo};
 }
 
-bool mayBeInSpace(const Air& air, const PlanRequest& request) {
-  return request.altitudeTo_m == 0.0 || request.altitudeTo_m > air.thickness_m;
+bool mayBeInSpace(const MediumTraits& medium, const PlanRequest& request) {
+  return request.altitudeTo_m == 0.0 || request.altitudeTo_m > medium.thickness_m;
 }
 
 bool sees(const PlanRequest& request, VisibilityFlag what) {
   return request.visible == 0 || (request.visible & what) != 0;
 }
 
-void copyReason(const model::Sentence& sentence, PlanChoice* choice) {
+void copyReason(const parameters::Sentence& sentence, PlanChoice* choice) {
   sentence.copyTo(choice->reason, sizeof choice->reason);
 }
 
-PlanChoice* addChoice(Plan* plan, const char* name, const model::Sentence& value,
-                      const model::Sentence& reason) {
+PlanChoice* addChoice(Plan* plan, const char* name, const parameters::Sentence& value,
+                      const parameters::Sentence& reason) {
   PlanChoice* choice = &plan->choices[plan->choiceCount++];
-  (model::Sentence() << name).copyTo(choice->name, sizeof choice->name);
+  (parameters::Sentence() << name).copyTo(choice->name, sizeof choice->name);
   value.copyTo(choice->value, sizeof choice->value);
   choice->on = true;
   copyReason(reason, choice);

@@ -1,10 +1,10 @@
 // Which sun the error of a query is judged by.
-#include <alpenglow/reference.h>
+#include <alpenglow/reference/reference.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "atmosphere/model/query.h"
+#include "atmosphere/parameters/query.h"
 #include "atmosphere/reference/single_scattering.h"
 
 namespace alpenglow {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "atmosphere/model/physics_cpp.h"
+#include "atmosphere/parameters/physics_cpp.h"
 
 namespace alpenglow::reference {
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "atmosphere/model/physics_cpp.h"
+#include "atmosphere/parameters/physics_cpp.h"
 
 namespace alpenglow::reference {
 

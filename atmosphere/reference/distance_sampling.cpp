@@ -16,11 +16,11 @@ double sumOf(const Spectrum& s) { return s.x + s.y + s.z; }
 }  // namespace
 
 DistanceSampling::DistanceSampling(const Medium& medium, const LightGuide& guide,
-                                   const Stretch& stretch, double muS, double nu,
+                                   const RaySegment& segment, double muS, double nu,
                                    const Spectrum& counts, bool direct, const EndSurface& surface)
-    : nodes_(medium, stretch, muS, nu, RayNodes::kFine) {
+    : nodes_(medium, segment, muS, nu, RayNodes::kFine) {
   const int count = nodes_.count();
-  if (count < 2) {  // No air along the ray; the surface may still be there.
+  if (count < 2) {  // No atmosphere along the ray; the surface may still be there.
     surfaceProbability_ = surface.albedo != nullptr ? 1.0 : 0.0;
     possible_ = surface.albedo != nullptr;
     return;
@@ -57,7 +57,8 @@ DistanceSampling::DistanceSampling(const Medium& medium, const LightGuide& guide
   }
   const bool reflects = surface.albedo != nullptr && sumOf(*surface.albedo) > 0.0;
   if (unguidedSum > kNothing) {
-    // The guide knows of no shadow: sunlight in the air before a mesh is less sure than its own.
+    // The guide knows of no shadow: sunlight in the atmosphere before a mesh is less sure than its
+    // own.
     const double least = surface.isMesh ? 0.2 : 0.02;
     const double all = guidedSum + surfaceLight;
     if (reflects) {
@@ -72,7 +73,7 @@ DistanceSampling::DistanceSampling(const Medium& medium, const LightGuide& guide
   const double other = (guidedSum > kNothing ? kUnguided : kGuided + kUnguided) / unguidedSum;
   for (int i = 0; i < count; ++i) {
     const auto k = static_cast<size_t>(i);
-    weights_[k] = guided * weights_[k] + other * unguided[k] + kAnywhere / stretch.length;
+    weights_[k] = guided * weights_[k] + other * unguided[k] + kAnywhere / segment.length;
     if (i > 0) {
       sums_[k] =
           sums_[k - 1] + 0.5 * (nodes_[i].t - nodes_[i - 1].t) * (weights_[k - 1] + weights_[k]);
@@ -97,8 +98,8 @@ DistanceSample DistanceSampling::sample(double u, double share) const {
 }
 
 Spectrum DistanceSampling::lightAlong(const Medium& medium, const LightGuide& guide,
-                                      const Stretch& stretch, double muS, double nu) {
-  const RayNodes nodes(medium, stretch, muS, nu, RayNodes::kFine);
+                                      const RaySegment& segment, double muS, double nu) {
+  const RayNodes nodes(medium, segment, muS, nu, RayNodes::kFine);
   Spectrum sum(0.0), before(0.0);
   for (int i = 0; i < nodes.count(); ++i) {
     const RayNode& n = nodes[i];

@@ -8,7 +8,7 @@ namespace alpenglow::reference {
 
 struct DistanceSample {
   double t = 0.0;
-  double density = 1.0;  ///< Per metre in the air, a probability on a surface.
+  double density = 1.0;  ///< Per metre in the atmosphere, a probability on a surface.
 };
 
 /// What a ray ends on.
@@ -26,19 +26,19 @@ class DistanceSampling {
  public:
   /// `counts`: what light of each channel, before this ray, counts for. `direct`: sunlight that
   /// scatters at the event counts too. `surface`: what the ray ends on.
-  DistanceSampling(const Medium& medium, const LightGuide& guide, const Stretch& stretch,
+  DistanceSampling(const Medium& medium, const LightGuide& guide, const RaySegment& segment,
                    double muS, double nu, const physics_f64::Spectrum& counts, bool direct,
                    const EndSurface& surface);
 
   /// False where nothing can come from along the ray.
   bool possible() const { return possible_; }
   double surfaceProbability() const { return surfaceProbability_; }
-  /// `share`: the probability of an event in the air, which multiplies the density.
+  /// `share`: the probability of an event in the atmosphere, which multiplies the density.
   DistanceSample sample(double u, double share) const;
 
-  /// A rough value of the light of all orders after the first, scattered along a stretch.
+  /// A rough value of the light of all orders after the first, scattered along a segment.
   static physics_f64::Spectrum lightAlong(const Medium& medium, const LightGuide& guide,
-                                          const Stretch& stretch, double muS, double nu);
+                                          const RaySegment& segment, double muS, double nu);
 
  private:
   static constexpr size_t kMost = 3 * RayNodes::kFine + 2;

@@ -60,8 +60,8 @@ PhysicsSpectrum relativeWeights(const PathTracer& tracer, const Task& task) {
 /// One of the task's parts, with the number of its batches.
 Estimate runPart(const PathTracer& tracer, const Task& task, bool surface,
                  const ReferenceOptions& options, double target, uint64_t* count) {
-  const bool fixed = options.samples > 0;
-  const uint64_t wanted = fixed ? options.samples : options.maxSamples;
+  const bool fixed = options.pathCount > 0;
+  const uint64_t wanted = fixed ? options.pathCount : options.maxPathCount;
   const uint64_t most = std::max<uint64_t>((wanted + kBatchPaths - 1) / kBatchPaths, 2);
   std::vector<PhysicsSpectrum> batches;
   const PhysicsSpectrum relative = relativeWeights(tracer, task);
@@ -108,7 +108,7 @@ TaskResult run(const PathTracer& tracer, const Task& task, const ReferenceOption
   uint64_t air = 0, surface = 0;
   if (task.air) result.air = runPart(tracer, task, false, options, target, &air);
   if (task.surface) result.surface = runPart(tracer, task, true, options, target, &surface);
-  result.samples = std::max(air, surface) * kBatchPaths;
+  result.pathCount = std::max(air, surface) * kBatchPaths;
   return result;
 }
 

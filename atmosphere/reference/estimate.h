@@ -18,7 +18,7 @@ struct Estimate {
 /// Mean and standard error of the batches' means, for each channel.
 Estimate estimateOf(const std::vector<physics_f64::Spectrum>& batches);
 
-/// What is estimated. With `air`: light scattered along a stretch of `length` metres in direction
+/// What is estimated. With `air`: light scattered along a segment of `length` metres in direction
 /// `view` by paths of `least` to `most` events. With `surface`: irradiance of the sky on a
 /// horizontal surface at `surfacePlace`, by paths of at most `surfaceMost` events.
 struct Task {
@@ -33,8 +33,8 @@ struct Task {
   uint32_t surfaceMost = kAllOrders;
   /// Light below which an error is not counted relative to the light; per channel.
   Spectrum leastRadiance;
-  /// The air's part that is known already, and what a unit of the surface's irradiance, and the
-  /// direct light there, add to the surface's answer: they count in relative errors.
+  /// The atmosphere's part that is known already, and what a unit of the surface's irradiance, and
+  /// the direct light there, add to the surface's answer: they count in relative errors.
   Spectrum knownAir;
   Spectrum surfaceFactor{{1.0, 1.0, 1.0}};
   Spectrum knownSurface;
@@ -54,7 +54,7 @@ Task irradianceTask(const Medium& medium, const ProbeQuery& query, uint32_t orde
 struct TaskResult {
   Estimate air;
   Estimate surface;
-  uint64_t samples = 0;  ///< Paths of the part that took more.
+  uint64_t pathCount = 0;  ///< Paths of the part that took more.
 };
 
 /// Options as alpenglow::ReferenceOptions has them; `target` is the error to stop at.

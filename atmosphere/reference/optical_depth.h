@@ -1,7 +1,7 @@
 // Optical depth along rays in double, by adaptive quadrature of the physics' extinction.
 #pragma once
 
-#include "atmosphere/model/physics_cpp.h"
+#include "atmosphere/parameters/physics_cpp.h"
 #include "atmosphere/reference/quadrature.h"
 
 namespace alpenglow::reference {
@@ -9,8 +9,8 @@ namespace alpenglow::reference {
 using physics_f64::Medium;
 using SpectrumIntegral = Integral<kSpectrumSize>;
 
-/// A stretch of a ray from a point at altitude `h` in direction `mu`, inside the atmosphere.
-struct Stretch {
+/// A segment of a ray from a point at altitude `h` in direction `mu`, inside the atmosphere.
+struct RaySegment {
   double h = 0.0;
   double mu = 1.0;
   double length = 0.0;
@@ -22,20 +22,20 @@ struct RayInterval {
   double to = 0.0;
 };
 
-/// Distances from 0 to the stretch's length between which the densities are smooth and vary on one
+/// Distances from 0 to the segment's length between which the densities are smooth and vary on one
 /// scale: the perigee, the altitudes where the absorption tent bends, and altitudes that grow by
-/// scale heights from the stretch's lowest point. Sorted, ends included.
-std::vector<double> smoothPieces(const Medium& medium, const Stretch& stretch);
+/// scale heights from the segment's lowest point. Sorted, ends included.
+std::vector<double> smoothBreaks(const Medium& medium, const RaySegment& segment);
 
 /// Sorts, and drops what lies outside [0, length] or closer together than rounding. Keeps the ends.
-void tidyPieces(std::vector<double>& pieces, double length);
+void tidyBreaks(std::vector<double>& breaks, double length);
 
-/// Optical depth from distance t0 to t1 of the stretch's ray, with no break between.
-SpectrumIntegral opticalDepthBetween(const Medium& medium, const Stretch& stretch, double t0,
+/// Optical depth from distance t0 to t1 of the segment's ray, with no break between.
+SpectrumIntegral opticalDepthBetween(const Medium& medium, const RaySegment& segment, double t0,
                                      double t1, const Tolerance& tolerance);
 
-/// Optical depth of the whole stretch.
-SpectrumIntegral opticalDepth(const Medium& medium, const Stretch& stretch,
+/// Optical depth of the whole segment.
+SpectrumIntegral opticalDepth(const Medium& medium, const RaySegment& segment,
                               const Tolerance& tolerance);
 
 /// Optical depth from a point towards the top; a direction below the horizon answers for the

@@ -35,7 +35,7 @@ class GuideLobe {
 };
 
 /// The lobes that a new direction is drawn from: light as the guide has it, the sun's aureole, and
-/// the phase functions (in the air) or the cosine (on a surface).
+/// the phase functions (in the atmosphere) or the cosine (on a surface).
 class Lobes {
  public:
   Lobes(const GuideLobe& guided, const Vector& sun, double g, double aureoleShare,
@@ -97,7 +97,7 @@ struct PathTracer::Hit {
   Vector position, vertical;
   double h, nu, muS;
   Vector normal;           ///< Of a surface, on the path's side.
-  const Spectrum* albedo;  ///< Of a surface; null in the air.
+  const Spectrum* albedo;  ///< Of a surface; null in the atmosphere.
 };
 
 PathTracer::PathTracer(const Medium& medium, const Scene* scene)
@@ -177,8 +177,9 @@ bool PathTracer::step(Path& path, double length, bool direct, bool sunAtEnd,
 }
 
 /// The direction that light scattered here came from.
-PathTracer::Drawn PathTracer::drawInAir(const Path& path, const Hit& hit, const GuideLight& light,
-                                        double rayleighShare, PathSampler& sampler) const {
+PathTracer::Drawn PathTracer::drawInAtmosphere(const Path& path, const Hit& hit,
+                                               const GuideLight& light, double rayleighShare,
+                                               PathSampler& sampler) const {
   const double g = medium_.mieAsymmetry;
   const GuideLobe guided(guide_.directionsAt(hit.h, hit.muS), hit.vertical, path.sun);
   // Peaked phase functions keep most for themselves: a path through haze scatters many times, and
@@ -235,7 +236,7 @@ bool PathTracer::atAir(Path& path, const Hit& hit, bool sunAtEnd, PathSampler& s
   }
   const double air = sumOf(counts * rayleigh), dust = sumOf(counts * mie);
   if (!(air + dust > 0.0)) return false;
-  const Drawn direction = drawInAir(path, hit, light, air / (air + dust), sampler);
+  const Drawn direction = drawInAtmosphere(path, hit, light, air / (air + dust), sampler);
   const double nu = std::clamp(glm::dot(path.direction, direction.direction), -1.0, 1.0);
   path.throughput *= (rayleigh * physics_f64::rayleighPhase(nu) +
                       mie * physics_f64::miePhase(medium_.mieAsymmetry, nu)) /
@@ -308,11 +309,12 @@ Spectrum PathTracer::irradianceSample(const Observer& observer, uint32_t most,
   return path.light;
 }
 
-PathTracer::AirLight PathTracer::airSample(const Vector& position, const Vector& view,
-                                           const Vector& sun, double length, bool withSingle,
-                                           const Spectrum& relative, PathSampler& sampler) const {
+PathTracer::AerialLight PathTracer::airSample(const Vector& position, const Vector& view,
+                                              const Vector& sun, double length, bool withSingle,
+                                              const Spectrum& relative,
+                                              PathSampler& sampler) const {
   sampler.nextPath();
-  AirLight result;
+  AerialLight result;
   if (!(length > 0.0)) return result;
   Path path;
   path.h = std::clamp(glm::length(position) - medium_.bottomRadius, 0.0, medium_.thickness);

@@ -2,9 +2,9 @@
 // Distances and directions are drawn by importance with the help of a rough solution, LightGuide.
 #pragma once
 
-#include <alpenglow/reference.h>
+#include <alpenglow/reference/reference.h>
 
-#include "atmosphere/model/query.h"
+#include "atmosphere/parameters/query.h"
 #include "atmosphere/reference/columns.h"
 #include "atmosphere/reference/directions.h"
 #include "atmosphere/reference/light_guide.h"
@@ -22,12 +22,12 @@ struct Observer {
   Vector sun{0.0, 0.0, 1.0};
 };
 
-/// Opaque things in the air. They stop light and reflect it by Lambert's law on both sides.
+/// Opaque things in the atmosphere. They stop light and reflect it by Lambert's law on both sides.
 struct Scene {
   MeshRays meshes;
   std::vector<physics_f64::Spectrum> albedo;  ///< Of each mesh.
-  /// False: meshes let the sun's own light pass, and only that: what shadows do can be told from
-  /// what the rest does.
+  /// False: meshes let the sun's own light pass, and only that: what shadows do can be
+  /// distinguished from what the rest does.
   bool hidesSun = true;
 };
 
@@ -57,17 +57,17 @@ class PathTracer {
   physics_f64::Spectrum irradianceSample(const Observer& observer, uint32_t most,
                                          PathSampler& sampler) const;
 
-  /// Light of a ray's first event in the air, and of those after it.
-  struct AirLight {
+  /// Light of a ray's first event in the atmosphere, and of those after it.
+  struct AerialLight {
     physics_f64::Spectrum single{0.0}, multiple{0.0};
     double t = 0.0;  ///< Distance of the first event.
   };
   /// One path's estimate of the light scattered along the first `length` metres of a ray, given in
   /// the planet's frame, inside the atmosphere; nothing may lie in its way. `relative` as above.
   /// Without `withSingle` paths are drawn for what is multiple alone, and single is 0.
-  AirLight airSample(const Vector& position, const Vector& view, const Vector& sun, double length,
-                     bool withSingle, const physics_f64::Spectrum& relative,
-                     PathSampler& sampler) const;
+  AerialLight airSample(const Vector& position, const Vector& view, const Vector& sun,
+                        double length, bool withSingle, const physics_f64::Spectrum& relative,
+                        PathSampler& sampler) const;
 
   /// One path's estimate of the radiance that leaves a surface, whose normal points to the side
   /// looked at, by paths of any number of events.
@@ -86,8 +86,8 @@ class PathTracer {
   bool step(Path& path, double length, bool direct, bool sunAtEnd, PathSampler& sampler) const;
   bool atAir(Path& path, const Hit& hit, bool sunAtEnd, PathSampler& sampler) const;
   bool atSurface(Path& path, const Hit& hit, PathSampler& sampler) const;
-  Drawn drawInAir(const Path& path, const Hit& hit, const GuideLight& light, double rayleighShare,
-                  PathSampler& sampler) const;
+  Drawn drawInAtmosphere(const Path& path, const Hit& hit, const GuideLight& light,
+                         double rayleighShare, PathSampler& sampler) const;
   Drawn drawAbove(const Vector& normal, const Vector& vertical, const Vector& sun, double h,
                   double muS, PathSampler& sampler) const;
   void follow(Path& path, PathSampler& sampler) const;

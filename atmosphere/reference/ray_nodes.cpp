@@ -21,9 +21,9 @@ double scaleAt(const Medium& m, double h, double mu) {
 
 }  // namespace
 
-RayNodes::RayNodes(const Medium& medium, const Stretch& stretch, double muS, double nu,
+RayNodes::RayNodes(const Medium& medium, const RaySegment& segment, double muS, double nu,
                    int intervals) {
-  const auto& [h, mu, length] = stretch;
+  const auto& [h, mu, length] = segment;
   if (!(length > 0.0)) return;
   const double perigee = std::min(-physics_f64::radiusAt(medium, h) * mu, length);
   const double near = scaleAt(medium, h, mu);
@@ -41,7 +41,7 @@ RayNodes::RayNodes(const Medium& medium, const Stretch& stretch, double muS, dou
     place(perigee, middle, far, half);
     if (length > perigee) place(perigee, length, far, intervals);
   }
-  fill(medium, stretch, muS, nu);
+  fill(medium, segment, muS, nu);
 }
 
 /// Adds the nodes after `from` up to `to`; with `from` beyond `to`, those from `to` up to `from`.
@@ -64,7 +64,7 @@ void RayNodes::place(double from, double to, double scale, int intervals) {
   nodes_[static_cast<size_t>(count_ - 1)].t = std::max(from, to);
 }
 
-void RayNodes::fill(const Medium& m, const Stretch& stretch, double muS, double nu) {
+void RayNodes::fill(const Medium& m, const RaySegment& segment, double muS, double nu) {
   const bool hasRayleigh =
       m.rayleighScattering.y > 0.0 || m.rayleighScattering.z > 0.0 || m.rayleighScattering.x > 0.0;
   const bool hasMie = m.mieExtinction.x > 0.0 || m.mieExtinction.y > 0.0 || m.mieExtinction.z > 0.0;
@@ -74,8 +74,8 @@ void RayNodes::fill(const Medium& m, const Stretch& stretch, double muS, double 
   physics_f64::Spectrum depth(0.0), before(0.0);
   for (int i = 0; i < count_; ++i) {
     RayNode& n = nodes_[static_cast<size_t>(i)];
-    n.h = std::min(physics_f64::altitudeAt(m, stretch.h, stretch.mu, n.t), m.thickness);
-    n.muS = physics_f64::muSAt(m, stretch.h, muS, nu, n.t, n.h);
+    n.h = std::min(physics_f64::altitudeAt(m, segment.h, segment.mu, n.t), m.thickness);
+    n.muS = physics_f64::muSAt(m, segment.h, muS, nu, n.t, n.h);
     n.rayleigh = hasRayleigh ? roughExp(-n.h * perRayleigh) : 0.0;
     n.mie = hasMie ? roughExp(-n.h * perMie) : 0.0;
     physics_f64::Spectrum extinction = m.rayleighScattering * n.rayleigh + m.mieExtinction * n.mie;

@@ -1,10 +1,10 @@
 // The public path tracer: order 1 from single_scattering.h, the others from estimate.h.
-#include <alpenglow/reference.h>
+#include <alpenglow/reference/reference.h>
 
 #include <new>
 #include <numbers>
 
-#include "atmosphere/model/sentence.h"
+#include "atmosphere/parameters/sentence.h"
 #include "atmosphere/reference/estimate.h"
 #include "atmosphere/reference/single_scattering.h"
 
@@ -36,7 +36,7 @@ Spectrum leastRadiance(const PathTracer& tracer, double sunElevation) {
   task.surface = true;
   task.surfacePlace = placeUnder(0.0, std::sin(sunElevation));
   ReferenceOptions options;
-  options.samples = 2 * kBatchPaths;
+  options.pathCount = 2 * kBatchPaths;
   const Estimate light = run(tracer, task, options, 1.0).surface;
   Spectrum least;
   for (uint32_t c = 0; c < kSpectrumSize; ++c) {
@@ -58,16 +58,16 @@ ReferenceAnswer evaluate(const PathTracer& tracer, const ProbeQuery& query,
   const uint32_t orders = options.orders == 0 ? kAllOrders : options.orders;
   ReferenceAnswer answer = singleScattering(medium, query, kRelativeTolerance);
   Task task = query.kind == QueryKind::Irradiance ? irradianceTask(medium, query, orders)
-                               : rayTask(medium, query, answer, orders);
+                                                  : rayTask(medium, query, answer, orders);
   if (!task.air && !task.surface) return answer;
   double target = 0.0;
-  if (options.samples == 0) {
+  if (options.pathCount == 0) {
     const double elevation = bandSunElevation(medium, query);
     target = options.targetError * allowance(elevation);
     task.leastRadiance = leastRadiance(tracer, elevation);
   }
   const TaskResult result = run(tracer, task, options, target);
-  answer.samples = result.samples;
+  answer.pathCount = result.pathCount;
   constexpr Spectrum kOne = {{1.0, 1.0, 1.0}};
   if (task.air)
     addTo(&answer.value.skyRadiance, &answer.standardError.skyRadiance, result.air, kOne);
@@ -84,19 +84,19 @@ constexpr const char* kName = "evaluateReference";
 
 Status checkCall(const ProbeQuery& query, const ReferenceOptions& options,
                  const ReferenceAnswer* out, const DiagnosticSink& sink) {
-  if (out == nullptr) return model::reportNull(sink, kName, "the answer");
+  if (out == nullptr) return parameters::reportNull(sink, kName, "the answer");
   if (Status status = checkQuery(query, sink); status != Status::Ok) return status;
   if (options.targetError >= 0.0) return Status::Ok;
-  model::Sentence why;
+  parameters::Sentence why;
   why << "ReferenceOptions::targetError is " << options.targetError
       << ", but it must be above 0, or 0 for the default.";
-  return model::report(sink, Status::InvalidArgument, why);
+  return parameters::report(sink, Status::InvalidArgument, why);
 }
 
 ReferenceOptions completed(const ReferenceOptions& options) {
   ReferenceOptions full = options;
   if (full.targetError == 0.0) full.targetError = 1e-3;
-  if (full.maxSamples == 0) full.maxSamples = uint64_t{1} << 19;
+  if (full.maxPathCount == 0) full.maxPathCount = uint64_t{1} << 19;
   return full;
 }
 
@@ -106,7 +106,7 @@ ReferenceOptions completed(const ReferenceOptions& options) {
 inline namespace v1 {
 
 Status createReference(const Parameters& parameters, Reference** out, const DiagnosticSink& sink) {
-  if (out == nullptr) return model::reportNull(sink, "createReference", "the reference");
+  if (out == nullptr) return parameters::reportNull(sink, "createReference", "the reference");
   if (Status status = validate(parameters, sink); status != Status::Ok) return status;
   try {
     *out = new Reference(parameters);
@@ -121,7 +121,7 @@ void destroyReference(Reference* reference) { delete reference; }
 Status evaluateReference(const Reference* reference, const ProbeQuery& query,
                          const ReferenceOptions& options, ReferenceAnswer* out,
                          const DiagnosticSink& sink) {
-  if (reference == nullptr) return model::reportNull(sink, reference::kName, "the reference");
+  if (reference == nullptr) return parameters::reportNull(sink, reference::kName, "the reference");
   if (Status status = reference::checkCall(query, options, out, sink); status != Status::Ok)
     return status;
   try {

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "atmosphere/model/physics_cpp.h"
+#include "atmosphere/parameters/physics_cpp.h"
 
 namespace alpenglow::reference {
 

@@ -42,7 +42,7 @@ void traceSceneBatch(void* context, uint32_t i) {
   PathSampler sampler(round.seed, i);
   physics_f64::Spectrum single(0.0), multiple(0.0);
   for (uint64_t k = 0; k < kBatchPaths; ++k) {
-    const PathTracer::AirLight light = round.tracer->airSample(
+    const PathTracer::AerialLight light = round.tracer->airSample(
         ray.position, ray.view, ray.sun, round.end->length, true, round.relative, sampler);
     single += light.single * share;
     multiple += light.multiple * share;
@@ -93,8 +93,9 @@ SceneLight traceSceneRay(const PathTracer& tracer, const Scene& scene, const Sce
   SceneLight result;
   result.end = endOf(tracer.medium(), scene, ray);
   const uint64_t batches =
-      options.samples > 0 ? std::max<uint64_t>((options.samples + kBatchPaths - 1) / kBatchPaths, 2)
-                          : kLeastBatches;
+      options.pathCount > 0
+          ? std::max<uint64_t>((options.pathCount + kBatchPaths - 1) / kBatchPaths, 2)
+          : kLeastBatches;
   const std::vector<physics_f64::Spectrum> none(batches, physics_f64::Spectrum(0.0));
   auto single = none, multiple = none, air = none, surface = none;
   // All channels count alike; their light is about in the proportion that scattering once has.

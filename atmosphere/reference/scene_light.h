@@ -40,7 +40,7 @@ struct SceneLight {
 };
 
 /// Path traced by options.samples paths (0: as many as kLeastBatches have), whole batches, for the
-/// air and for the surface each. `tracer` was made with `scene`.
+/// atmosphere and for the surface each. `tracer` was made with `scene`.
 SceneLight traceSceneRay(const PathTracer& tracer, const Scene& scene, const SceneRay& ray,
                          const ReferenceOptions& options);
 

@@ -43,7 +43,7 @@ class ShadowPlane {
     return along.high >= 0.0 && along.low <= length;
   }
 
-  /// The stretch of the ray behind a triangle, seen from the sun; false for none.
+  /// The segment of the ray behind a triangle, seen from the sun; false for none.
   bool shadowOf(const std::array<Vector, 3>& corners, RayInterval& shadow) const {
     double side[3];
     for (size_t i = 0; i < 3; ++i) side[i] = glm::dot(normal_, corners[i]);

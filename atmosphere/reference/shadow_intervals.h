@@ -1,6 +1,6 @@
 // Which parts of a view ray lie in the shadow of meshes: exact in double, without marching. In the
 // plane of the ray and the sun each triangle is a segment, and its part sunward of the ray shadows
-// the stretch that it hides from the sun.
+// the segment that it hides from the sun.
 #pragma once
 
 #include "atmosphere/reference/mesh_rays.h"

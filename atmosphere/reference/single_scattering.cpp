@@ -4,8 +4,8 @@
 #include <new>
 #include <numbers>
 
-#include "atmosphere/model/query.h"
-#include "atmosphere/model/sentence.h"
+#include "atmosphere/parameters/query.h"
+#include "atmosphere/parameters/sentence.h"
 #include "atmosphere/reference/shadow.h"
 
 namespace alpenglow {
@@ -67,7 +67,7 @@ SunlitRay makeSunlitRay(const Medium& medium, const ProbeQuery& query,
   const double r = physics_f64::radiusAt(medium, query.altitude_m);
 
   SunlitRay sunlit;
-  sunlit.stretch = {resolved.ray.h, resolved.ray.mu, resolved.length};
+  sunlit.segment = {resolved.ray.h, resolved.ray.mu, resolved.length};
   sunlit.muS = resolved.ray.muS;
   sunlit.nu = resolved.ray.nu;
   sunlit.sineSquared = glm::dot(normal, normal);
@@ -76,7 +76,7 @@ SunlitRay makeSunlitRay(const Medium& medium, const ProbeQuery& query,
   return sunlit;
 }
 
-/// Shadows counted from where a stretch begins.
+/// Shadows counted from where a segment begins.
 std::vector<RayInterval> shadowsFrom(double start, std::span<const RayInterval> shadow) {
   std::vector<RayInterval> result;
   for (const RayInterval& s : shadow) {
@@ -85,7 +85,7 @@ std::vector<RayInterval> shadowsFrom(double start, std::span<const RayInterval> 
   return result;
 }
 
-/// The light scattered along a stretch: equation 11 of the paper for J of the direct sun. With
+/// The light scattered along a segment: equation 11 of the paper for J of the direct sun. With
 /// shadows it is equation 13, and as many lit parts as they leave.
 class SingleScattering {
  public:
@@ -95,34 +95,34 @@ class SingleScattering {
         ray_(ray),
         tolerance_(tolerance),
         depthTolerance_(depthTolerance(tolerance)),
-        pieces_(smoothPieces(medium, ray.stretch)) {
-    addSunlightPieces(medium, ray, pieces_);
+        breaks_(smoothBreaks(medium, ray.segment)) {
+    addSunlightBreaks(medium, ray, breaks_);
     addFreePaths();
     for (const RayInterval& s : shadow) {
-      pieces_.push_back(s.from);
-      pieces_.push_back(s.to);
+      breaks_.push_back(s.from);
+      breaks_.push_back(s.to);
     }
-    tidyPieces(pieces_, ray.stretch.length);
-    depths_.resize(pieces_.size());
-    lit_.resize(pieces_.size() - 1);
-    hidden_.resize(pieces_.size() - 1);
-    for (size_t i = 0; i + 1 < pieces_.size(); ++i) {
-      const double middle = 0.5 * (pieces_[i] + pieces_[i + 1]);
+    tidyBreaks(breaks_, ray.segment.length);
+    depths_.resize(breaks_.size());
+    lit_.resize(breaks_.size() - 1);
+    hidden_.resize(breaks_.size() - 1);
+    for (size_t i = 0; i + 1 < breaks_.size(); ++i) {
+      const double middle = 0.5 * (breaks_[i] + breaks_[i + 1]);
       hidden_[i] = isInside(shadow, middle);
       lit_[i] = visibilityAt(middle) > 0.0;
       depths_[i + 1] = depths_[i];
       add(depths_[i + 1],
-          opticalDepthBetween(medium, ray.stretch, pieces_[i], pieces_[i + 1], depthTolerance_));
+          opticalDepthBetween(medium, ray.segment, breaks_[i], breaks_[i + 1], depthTolerance_));
     }
   }
 
-  /// Optical depth of the whole stretch.
+  /// Optical depth of the whole segment.
   const SpectrumIntegral& depth() const { return depths_.back(); }
 
   Estimate radiance() const {
     double depthError = 0.0;
     const auto integrand = [&](double t) { return lightAt(t, depthError); };
-    const Integral<kTerms> sum = integrate<kTerms>(integrand, pieces_, {tolerance_, 0.0});
+    const Integral<kTerms> sum = integrate<kTerms>(integrand, breaks_, {tolerance_, 0.0});
 
     const double rayleigh = physics_f64::rayleighPhase(ray_.nu);
     const double mie = physics_f64::miePhase(medium_.mieAsymmetry, ray_.nu);
@@ -154,41 +154,41 @@ class SingleScattering {
 
   /// In thick air the light comes from a few mean free paths, far less than a scale height.
   void addFreePaths() {
-    const physics_f64::Spectrum density = physics_f64::extinction(medium_, ray_.stretch.h);
+    const physics_f64::Spectrum density = physics_f64::extinction(medium_, ray_.segment.h);
     double most = 0.0;
     for (uint32_t i = 0; i < kSpectrumSize; ++i) {
       most = std::max(most, density[static_cast<glm::length_t>(i)]);
     }
     for (double paths : {1.0, 4.0, 16.0, 64.0}) {
-      if (most * ray_.stretch.length > paths) {
-        pieces_.push_back(paths / most);
+      if (most * ray_.segment.length > paths) {
+        breaks_.push_back(paths / most);
       }
     }
   }
 
   double muSAt(double t, double h) const {
-    return physics_f64::muSAt(medium_, ray_.stretch.h, ray_.muS, ray_.nu, t, h);
+    return physics_f64::muSAt(medium_, ray_.segment.h, ray_.muS, ray_.nu, t, h);
   }
 
   double visibilityAt(double t) const {
-    const double h = physics_f64::altitudeAt(medium_, ray_.stretch.h, ray_.stretch.mu, t);
+    const double h = physics_f64::altitudeAt(medium_, ray_.segment.h, ray_.segment.mu, t);
     return physics_f64::sunVisibility(medium_, h, muSAt(t, h));
   }
 
   /// T(x, y) T_sun(y) times the scattering coefficients at y, t metres along the ray.
   std::array<double, kTerms> lightAt(double t, double& depthError) const {
-    const auto after = std::upper_bound(pieces_.begin(), pieces_.end() - 1, t);
-    const size_t piece =
-        static_cast<size_t>(std::max<std::ptrdiff_t>(after - pieces_.begin(), 1)) - 1;
+    const auto after = std::upper_bound(breaks_.begin(), breaks_.end() - 1, t);
+    const size_t segment =
+        static_cast<size_t>(std::max<std::ptrdiff_t>(after - breaks_.begin(), 1)) - 1;
     // A parallel beam steps at a piece's end, and its step is decided for the piece as a whole.
     const bool sharp = !(medium_.sunSinRadius > 0.0);
-    const double visibility = sharp ? (lit_[piece] ? 1.0 : 0.0) : visibilityAt(t);
-    if (hidden_[piece] || !(visibility > 0.0)) {
+    const double visibility = sharp ? (lit_[segment] ? 1.0 : 0.0) : visibilityAt(t);
+    if (hidden_[segment] || !(visibility > 0.0)) {
       return {};
     }
-    const double h = physics_f64::altitudeAt(medium_, ray_.stretch.h, ray_.stretch.mu, t);
-    SpectrumIntegral depth = depths_[piece];
-    add(depth, opticalDepthBetween(medium_, ray_.stretch, pieces_[piece], t, depthTolerance_));
+    const double h = physics_f64::altitudeAt(medium_, ray_.segment.h, ray_.segment.mu, t);
+    SpectrumIntegral depth = depths_[segment];
+    add(depth, opticalDepthBetween(medium_, ray_.segment, breaks_[segment], t, depthTolerance_));
     add(depth, opticalDepthToTop(medium_, h, muSAt(t, h), depthTolerance_));
 
     const double rayleigh = physics_f64::rayleighDensity(medium_, h);
@@ -208,7 +208,7 @@ class SingleScattering {
   SunlitRay ray_;
   double tolerance_;
   Tolerance depthTolerance_;
-  std::vector<double> pieces_;
+  std::vector<double> breaks_;
   std::vector<SpectrumIntegral> depths_;  ///< From the start to each end of a piece.
   std::vector<bool> lit_;                 ///< Of each piece, for a sun without a disc.
   std::vector<bool> hidden_;              ///< Whether a piece lies in one of the shadows.
@@ -218,7 +218,7 @@ class SingleScattering {
 Estimate groundRadiance(const Medium& medium, const SunlitRay& ray, const Estimate& transmittance,
                         const Tolerance& tolerance) {
   const double muS =
-      physics_f64::muSAt(medium, ray.stretch.h, ray.muS, ray.nu, ray.stretch.length, 0.0);
+      physics_f64::muSAt(medium, ray.segment.h, ray.muS, ray.nu, ray.segment.length, 0.0);
   const Estimate direct = directIrradiance(medium, 0.0, muS, tolerance);
   Estimate result;
   for (uint32_t i = 0; i < kSpectrumSize; ++i) {
@@ -248,21 +248,21 @@ Status checkQuery(const ProbeQuery& query, const DiagnosticSink& sink) {
                 {"distance_m", ray ? query.distance_m : 0.0, 0.0, kAny}};
   for (const auto& field : fields) {
     if (field.value >= field.least && field.value <= field.most) continue;
-    model::Sentence why;
+    parameters::Sentence why;
     why << "ProbeQuery::" << field.name << " is " << field.value << ", but it must be ";
     if (field.most == kAny) {
       why << (field.least == 0.0 ? "at least 0 and finite." : "finite.");
     } else {
       why << "from 0 to pi.";
     }
-    return model::report(sink, Status::InvalidArgument, why);
+    return parameters::report(sink, Status::InvalidArgument, why);
   }
   return Status::Ok;
 }
 
 Status outOfMemory(const DiagnosticSink& sink, const char* function) {
-  return model::report(sink, Status::OutOfHostMemory,
-                       model::Sentence() << function << " found too little host memory.");
+  return parameters::report(sink, Status::OutOfHostMemory,
+                            parameters::Sentence() << function << " found too little host memory.");
 }
 
 ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, double tolerance,
@@ -285,7 +285,7 @@ ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, 
   const SunlitRay segment = makeSunlitRay(medium, query, resolved);
   const std::vector<RayInterval> dark = shadowsFrom(resolved.ray.start, shadow);
   Estimate transmittance{answer.value.transmittance, {}};
-  if (segment.stretch.length > 0.0) {
+  if (segment.segment.length > 0.0) {
     const SingleScattering scattering(medium, segment, tolerance, dark);
     transmittance = transmittanceOf(scattering.depth());
     const Estimate sky = scattering.radiance();
@@ -295,7 +295,7 @@ ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, 
   answer.value.transmittance = transmittance.value;
   answer.standardError.transmittance = transmittance.error;
   answer.value.hitsGround = resolved.endsOnGround;
-  const double end = segment.stretch.length * (1.0 - 1e-9);
+  const double end = segment.segment.length * (1.0 - 1e-9);
   const bool groundIsDark = !dark.empty() && dark.back().to >= end;
   if (answer.value.hitsGround && !groundIsDark) {
     const Estimate ground =
@@ -313,7 +313,7 @@ inline namespace v1 {
 Status referenceSingleScattering(const Parameters& parameters, const ProbeQuery& query,
                                  ReferenceAnswer* out, const DiagnosticSink& sink) {
   constexpr const char* kName = "referenceSingleScattering";
-  if (out == nullptr) return model::reportNull(sink, kName, "the answer");
+  if (out == nullptr) return parameters::reportNull(sink, kName, "the answer");
   Status status = reference::checkQuery(query, sink);
   if (status == Status::Ok) status = validate(parameters, sink);
   if (status != Status::Ok) return status;

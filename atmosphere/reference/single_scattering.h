@@ -1,7 +1,7 @@
 // The reference with its tolerance open, for tests of its own convergence.
 #pragma once
 
-#include <alpenglow/reference.h>
+#include <alpenglow/reference/reference.h>
 
 #include <span>
 

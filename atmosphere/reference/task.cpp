@@ -21,7 +21,7 @@ Task rayTask(const Medium& medium, const ProbeQuery& query, const ReferenceAnswe
   const ResolvedQuery resolved = resolveQuery(medium, query);
   if (resolved.empty || orders < 2) return task;
   const physics_f64::Ray& ray = resolved.ray;
-  // At the ray's entry into the air only mu, mu_s and nu are left of the observer's angles.
+  // At the ray's entry into the atmosphere only mu, mu_s and nu are left of the observer's angles.
   const double viewSine = std::sqrt(std::max(1.0 - ray.mu * ray.mu, 0.0));
   const double sunSine = std::sqrt(std::max(1.0 - ray.muS * ray.muS, 0.0));
   const double spread = viewSine * sunSine;

@@ -1,9 +1,9 @@
 #include "atmosphere/view/frame.h"
 
 #include <algorithm>
-#include <limits>
+#include <cmath>
 
-#include "atmosphere/sky/camera_math.h"
+#include "atmosphere/camera/camera_math.h"
 
 namespace alpenglow::view {
 namespace {
@@ -15,8 +15,8 @@ bool isZero(const double* values, size_t count) {
 }
 
 Status later(const engine::Device& device, const char* member, const char* rule) {
-  return device.fail(Status::Unsupported, VK_SUCCESS,
-                     "FrameDesc::%s, but this version expects %s.", member, rule);
+  return device.fail(Status::Unsupported, VK_SUCCESS, "FrameDesc::%s, but this version expects %s.",
+                     member, rule);
 }
 
 }  // namespace
@@ -40,9 +40,44 @@ Status checkLater(const engine::Device& device, const FrameDesc& desc) {
   return Status::Ok;
 }
 
+Status checkWorld(const engine::Device& device, const World& world) {
+  for (const double value : world.origin_m) {
+    if (std::abs(value) < 1e15) continue;  // False for NaN too.
+    return device.fail(
+        Status::InvalidArgument, VK_SUCCESS,
+        "World::origin_m has a value of %g, but each must be finite and within 1e15 m "
+        "of the planet's centre.",
+        value);
+  }
+  const passes::Placement placement(world);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j) {
+      const double product = passes::dot(placement.axes[i], placement.axes[j]);
+      if (std::abs(product - (i == j ? 1.0 : 0.0)) < 1e-4) continue;
+      return device.fail(Status::InvalidArgument, VK_SUCCESS,
+                         "World::axes has axes %d and %d with the scalar product %g, but needs "
+                         "orthonormal ones, or all 0 for the planet frame.",
+                         i, j, product);
+    }
+  }
+  if (world.metersPerUnit != 0.0 && world.metersPerUnit != 1.0) {
+    return device.fail(Status::Unsupported, VK_SUCCESS,
+                       "World::metersPerUnit is %g, but must be 0 or 1 in this version.",
+                       world.metersPerUnit);
+  }
+  if (world.equatorialRadius_m != 0.0 || world.polarRadius_m != 0.0) {
+    return device.fail(
+        Status::Unsupported, VK_SUCCESS,
+        "World::equatorialRadius_m is %g and polarRadius_m %g, but both must be 0 in "
+        "this version: altitudes are above the sphere.",
+        world.equatorialRadius_m, world.polarRadius_m);
+  }
+  return Status::Ok;
+}
+
 FrameState frameState(const FrameDesc& desc, Projection projection, const Spectrum& irradiance,
                       VkExtent2D scene) {
-  const sky::Placement placement(desc.world);
+  const passes::Placement placement(desc.world);
   const Camera& camera = desc.cameras[0];
   const Light& light = desc.lights[0];
   FrameState state;
@@ -72,25 +107,13 @@ CasterSet casterSet(const FrameDesc& desc, const FrameState& state) {
   casters.user = desc.casters.user;
   casters.version = desc.casters.version;
   if (casters.draw != nullptr) {
-    casters.bounds = planetBox(sky::Placement(desc.world), desc.casters.bounds);
+    casters.bounds = planetBox(passes::Placement(desc.world), desc.casters.bounds);
     return casters;
   }
   // Nothing casts: an empty map of a metre about the camera.
   std::copy_n(state.camera.position_m, 3, casters.bounds.center_m);
   for (int i = 0; i < 3; ++i) casters.bounds.halfAxes_m[i][i] = 1.0;
   return casters;
-}
-
-double greatestValue(VkFormat format) {
-  switch (format) {
-    case VK_FORMAT_R16G16B16_SFLOAT:
-    case VK_FORMAT_R16G16B16A16_SFLOAT:
-      return 65504.0;
-    case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
-      return 64512.0;  // Of the ten-bit channel.
-    default:
-      return std::numeric_limits<double>::infinity();
-  }
 }
 
 }  // namespace alpenglow::view

@@ -4,17 +4,17 @@
 #include <cmath>
 #include <new>
 
-#include "atmosphere/model/solvers.h"
-#include "atmosphere/sky/air_set.h"
+#include "atmosphere/parameters/solvers.h"
+#include "atmosphere/passes/aerial_perspective_set.h"
 
 namespace alpenglow {
 inline namespace v1 {
 namespace {
 
-sky::ShaftSet shaftSetOf(const shafts::LightShaftPass& pass) {
+passes::LightShaftSet lightShaftSetOf(const passes::LightShaftPass& pass) {
   if (!pass.made()) return {};
-  const ShaftSettings& desc = pass.desc();
-  return {pass.setLayout(), VK_NULL_HANDLE, shafts::methodIndex(desc.method), desc.stepCount,
+  const LightShaftSettings& desc = pass.desc();
+  return {pass.setLayout(), VK_NULL_HANDLE, passes::methodIndex(desc.method), desc.stepCount,
           static_cast<float>(desc.multipleLoss)};
 }
 
@@ -35,7 +35,7 @@ ImageInfo infoOf(const engine::Image& image) {
 
 }  // namespace
 
-View::View(bake::Resources& resources, const Tables& tables, const ViewDesc& desc)
+View::View(tables::Resources& resources, const Tables& tables, const ViewDesc& desc)
     : FrameObject(resources.device().frames()),
       resources_(resources),
       device_(resources.device()),
@@ -45,12 +45,12 @@ View::View(bake::Resources& resources, const Tables& tables, const ViewDesc& des
       shape_(tables.desc()),
       skyLut_(resources),
       aerialLut_(resources),
-      shafts_(resources),
+      lightShafts_(resources),
       skyPass_(device_),
       aerialPass_(device_),
       pictureSets_(device_) {}
 
-Status View::create(bake::Resources& resources, const Tables& tables, const ViewDesc& desc,
+Status View::create(tables::Resources& resources, const Tables& tables, const ViewDesc& desc,
                     View** out) {
   *out = nullptr;
   auto* view = new (std::nothrow) View(resources, tables, desc);
@@ -77,7 +77,7 @@ void View::destroy(View* view, uint64_t frame) {
   deletions.defer(frame, VK_OBJECT_TYPE_DESCRIPTOR_POOL, engine::handleNumber(view->aerialPool_));
   deletions.defer(frame, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT,
                   engine::handleNumber(view->aerialLayout_));
-  view->shafts_.destroy(frame);
+  view->lightShafts_.destroy(frame);
   view->aerialLut_.destroy(frame);
   view->skyLut_.destroy(frame);
   delete view;
@@ -87,18 +87,17 @@ void View::destroy(View* view, uint64_t frame) {
 Status View::make(const Tables& tables) {
   const PictureDesc& picture = desc_.picture;
   Status status = Status::Ok;
-  if (picture.skyLut)
-    status = skyLut_.make(tables.desc(), picture.disabledEffects, desc_.readers);
+  if (picture.skyLut) status = skyLut_.make(tables.desc(), picture.disabledEffects, desc_.readers);
   if (status == Status::Ok && picture.aerialLut)
     status = aerialLut_.make(picture.disabledEffects, desc_.readers);
-  if (status == Status::Ok && desc_.hasShafts)
-    status = shafts_.make(desc_.shafts, resources_.setStages());
+  if (status == Status::Ok && desc_.hasLightShafts)
+    status = lightShafts_.make(desc_.shafts, resources_.setStages());
   if (status == Status::Ok) status = makeSets();
   return status == Status::Ok ? makePipelines() : status;
 }
 
-// Set 1: the albedo map at binding 0, the sky-view LUT at 1 and 2, the scene's depth at 3; what there
-// is of it. Set 2 is the aerial-perspective LUT's, set 3 the light shafts'.
+// Set 1: the albedo map at binding 0, the sky-view LUT at 1 and 2, the scene's depth at 3; what
+// there is of it. Set 2 is the aerial-perspective LUT's, set 3 the light shafts'.
 Status View::makeSets() {
   const PictureDesc& picture = desc_.picture;
   VkDescriptorSetLayoutBinding bindings[4];
@@ -114,23 +113,26 @@ Status View::makeSets() {
   }
   if (picture.aerial) add(3);
   hasPictureSet_ = count > 0;
-  Status status = hasPictureSet_ ? pictureSets_.make(bindings, count, "Alpenglow view") : Status::Ok;
+  Status status =
+      hasPictureSet_ ? pictureSets_.make(bindings, count, "Alpenglow view") : Status::Ok;
   if (status != Status::Ok || !picture.aerial) return status;
-  status = sky::createAirSetLayout(device_, resources_.setStages(), &aerialLayout_);
+  status =
+      passes::createAerialPerspectiveSetLayout(device_, resources_.setStages(), &aerialLayout_);
   if (status != Status::Ok || !picture.aerialLut) return status;
-  return sky::createAirSet(resources_, aerialLut_, aerialLayout_, &aerialPool_, &aerialSet_);
+  return passes::createAerialPerspectiveSet(resources_, aerialLut_, aerialLayout_, &aerialPool_,
+                                            &aerialSet_);
 }
 
 Status View::makePipelines() {
   const PictureDesc& picture = desc_.picture;
   const VkDescriptorSetLayout sets[] = {resources_.tableLayout(), pictureSets_.layout(),
-                                        aerialLayout_, shafts_.setLayout()};
-  const uint32_t count = desc_.hasShafts ? 4 : picture.aerial ? 3 : hasPictureSet_ ? 2 : 1;
-  const VkPushConstantRange range = {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(sky::SkyConstants)};
+                                        aerialLayout_, lightShafts_.setLayout()};
+  const uint32_t count = desc_.hasLightShafts ? 4 : picture.aerial ? 3 : hasPictureSet_ ? 2 : 1;
+  const VkPushConstantRange range = {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(passes::SkyConstants)};
   Status status =
       engine::createPipelineLayout(device_, sets, count, &range, 1, "Alpenglow sky", &layout_);
   if (status != Status::Ok) return status;
-  const sky::ShaftSet shafts = shaftSetOf(shafts_);
+  const passes::LightShaftSet shafts = lightShaftSetOf(lightShafts_);
   status = skyPass_.make(picture, shafts, picture.skyLut ? &skyLut_ : nullptr, layout_);
   if (status == Status::Ok && picture.aerial) status = aerialPass_.make(picture, shafts, layout_);
   return status;
@@ -144,8 +146,8 @@ Status View::checkTables(const Tables& tables) const {
                         "its own.");
   }
   const bool standard = desc.solver == Solver::Standard;
-  const char* other = desc.solver != shape_.solver ? "solver"
-                      : desc.mie != shape_.mie     ? "MieStorage"
+  const char* other = desc.solver != shape_.solver                     ? "solver"
+                      : desc.mie != shape_.mie                         ? "MieStorage"
                       : desc.disabledEffects != shape_.disabledEffects ? "disabledEffects"
                       : standard && skyLut_.made() &&
                               (desc.sizes.scatteringMu != shape_.sizes.scatteringMu ||
@@ -163,7 +165,7 @@ Status View::beginFrame(const FrameDesc& desc, FrameWork* work) {
   if (work != nullptr) *work = {};
   frame_.number = device_.submitting();
   frame_.valid = false;
-  frame_.mapRecorded = frame_.shaftsRecorded = false;
+  frame_.mapRecorded = frame_.lightShaftsRecorded = false;
   const Status status = takeFrame(desc);
   if (status != Status::Ok) return status;
   frame_.valid = true;
@@ -180,7 +182,7 @@ Status View::takeFrame(const FrameDesc& desc) {
   }
   Status status = checkTables(*tables);
   if (status == Status::Ok) status = view::checkLater(device_, desc);
-  if (status == Status::Ok) status = sky::checkWorld(device_, desc.world);
+  if (status == Status::Ok) status = view::checkWorld(device_, desc.world);
   if (status != Status::Ok) return status;
   if (!(desc.lights[0].dimming >= 0.0 && desc.lights[0].dimming <= 1.0)) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
@@ -194,11 +196,11 @@ Status View::takeFrame(const FrameDesc& desc) {
   const VkExtent2D scene = desc.sceneDepth.extent;
   FrameState& state = frame_.state;
   state = view::frameState(desc, picture.projection, tables->irradiance(), scene);
-  status = sky::checkDraw(device_, picture.projection, state);
+  status = passes::checkDraw(device_, picture.projection, state);
   if (status == Status::Ok && picture.aerial) {
-    status = sky::checkDepthRange(device_, picture.projection, state.depth);
-    if (status == Status::Ok && (desc.sceneDepth.view == VK_NULL_HANDLE || scene.width == 0 ||
-                                 scene.height == 0)) {
+    status = passes::checkDepthRange(device_, picture.projection, state.depth);
+    if (status == Status::Ok &&
+        (desc.sceneDepth.view == VK_NULL_HANDLE || scene.width == 0 || scene.height == 0)) {
       status = device_.fail(Status::InvalidArgument, VK_SUCCESS,
                             "FrameDesc::sceneDepth has %s view and %u x %u pixels, but a view with "
                             "aerial perspective needs a view and its extent.",
@@ -207,26 +209,27 @@ Status View::takeFrame(const FrameDesc& desc) {
     }
   }
   if (status != Status::Ok) return status;
-  warn(parameters, desc);
+  warnings_.check(device_, parameters, state, picture.colorFormat);
   if (!tables->ready()) return Status::NotReady;
   status = tables->assertReadable();
-  if (status == Status::Ok) status = sky::checkDrawnEffects(device_, parameters, picture, state);
+  if (status == Status::Ok) status = passes::checkDrawnEffects(device_, parameters, picture, state);
   if (status != Status::Ok) return status;
-  frame_.parts = sky::cut(parameters, picture, state);
-  status = sky::checkParts(device_, picture, frame_.parts);
-  if (status == Status::Ok && desc_.hasShafts) {
+  frame_.parts = passes::cut(parameters, picture, state);
+  status = passes::checkPartition(device_, picture, frame_.parts);
+  if (status == Status::Ok && desc_.hasLightShafts) {
     frame_.casters = view::casterSet(desc, state);
-    status = shafts::checkCasters(device_, frame_.casters);
-    if (status == Status::Ok) status = shafts::checkViewport(device_, scene, state);
-    if (status == Status::Ok) status = shafts_.resize(scene);
+    status = passes::checkCasters(device_, frame_.casters);
+    if (status == Status::Ok) status = passes::checkViewport(device_, scene, state);
+    if (status == Status::Ok) status = lightShafts_.resize(scene);
     // A direction that differs by rounding alone is that of the map.
-    if (shafts_.mapped() && shafts_.map().current(state.sun.direction, frame_.casters))
-      std::copy_n(shafts_.map().sun(), 3, state.sun.direction);
+    if (lightShafts_.mapped() && lightShafts_.map().current(state.sun.direction, frame_.casters))
+      std::copy_n(lightShafts_.map().sun(), 3, state.sun.direction);
   }
   if (status == Status::Ok) status = prepareSets();
   if (status != Status::Ok) return status;
-  frame_.skyConstants = sky::makeConstants(parameters, picture, state);
-  if (picture.aerial) frame_.aerialConstants = sky::makeAirConstants(parameters, picture, state);
+  frame_.skyConstants = passes::makeSkyConstants(parameters, picture, state);
+  if (picture.aerial)
+    frame_.aerialConstants = passes::makeAerialPerspectiveConstants(parameters, picture, state);
   return Status::Ok;
 }
 
@@ -256,58 +259,23 @@ Status View::prepareSets() {
   frame_.sets.sets[kViewSetTables] = frame_.tables->descriptorSet();
   frame_.sets.sets[kViewSetSky] = set;
   frame_.sets.sets[kViewSetAerialPerspective] = aerialSet_;
-  frame_.sets.sets[kViewSetLightShafts] = shafts_.set();
+  frame_.sets.sets[kViewSetLightShafts] = lightShafts_.set();
   return Status::Ok;
 }
 
-void View::warn(const Parameters& parameters, const FrameDesc&) {
-  const auto once = [this](uint32_t warning, bool seen) {
-    if (!seen || (warned_ & warning) != 0) return false;
-    warned_ |= warning;
-    return true;
-  };
-  const FrameState& state = frame_.state;
-  const double depth = parameters.bottomRadius_m - sky::cameraRadius(state.camera);
-  if (once(view::kWarningDeepCamera, depth > 0.1 * parameters.bottomRadius_m)) {
-    device_.notice(Severity::Warning,
-                   "The camera is %g m below the ground of a planet of %g m: its position may be in "
-                   "kilometres, or FrameDesc::world may lack the world's origin or axes.",
-                   depth, parameters.bottomRadius_m);
-  }
-  double brightest = 0.0;
-  for (uint32_t i = 0; i < kSpectrumSize; ++i)
-    brightest = std::max(brightest, state.sun.irradiance[i]);
-  if (once(view::kWarningDarkSun, brightest == 0.0)) {
-    device_.notice(Severity::Warning,
-                   "Light 0 has an irradiance of 0, so that the picture is black: see "
-                   "Parameters::solarIrradiance, LightDesc::irradiance and Light::dimming.");
-  }
-  const double radius = state.sun.discRadius;
-  const double solidAngle = 4.0 * 3.14159265358979323846 * std::pow(std::sin(0.5 * radius), 2.0);
-  const double scale = state.radianceScale == 0.0 ? 1.0 : state.radianceScale;
-  const double most = view::greatestValue(desc_.picture.colorFormat);
-  const double disc = radius > 0.0 ? brightest * scale / solidAngle : 0.0;
-  if (once(view::kWarningOverflow, disc > most)) {
-    device_.notice(Severity::Warning,
-                   "FrameDesc::radianceScale of %g makes the sun's disc up to %g, but "
-                   "ViewDesc::colorFormat holds at most %g.",
-                   scale, disc, most);
-  }
-}
-
 bool View::skyFromLut() const {
-  return desc_.picture.skyLut && sky::SkySlice::possible(*frame_.tables, frame_.state);
+  return desc_.picture.skyLut && passes::SkyViewLut::possible(*frame_.tables, frame_.state);
 }
 
 RecordFlags View::needed() const {
   RecordFlags flags = kRecordSky;
   const bool sky = skyFromLut() && !skyLut_.current(*frame_.tables, frame_.state);
-  const bool air =
-      desc_.picture.aerialLut && !aerialLut_.current(*frame_.tables, frame_.state);
+  const bool air = desc_.picture.aerialLut && !aerialLut_.current(*frame_.tables, frame_.state);
   if (sky || air) flags |= kRecordLuts;
   if (desc_.picture.aerial) flags |= kRecordAerialPerspective;
-  if (!desc_.hasShafts) return flags;
-  if (shafts_.mapped() && !shafts_.map().current(frame_.state.sun.direction, frame_.casters))
+  if (!desc_.hasLightShafts) return flags;
+  if (lightShafts_.mapped() &&
+      !lightShafts_.map().current(frame_.state.sun.direction, frame_.casters))
     flags |= kRecordShadowMap;
   return flags | kRecordLightShafts;
 }
@@ -338,20 +306,20 @@ Status View::recordLuts(VkCommandBuffer commands) {
 
 Status View::recordShadowMap(VkCommandBuffer commands) {
   Status status = checkBegun("recordShadowMap");
-  if (status != Status::Ok || !desc_.hasShafts || !shafts_.mapped()) return status;
+  if (status != Status::Ok || !desc_.hasLightShafts || !lightShafts_.mapped()) return status;
   if ((needed() & kRecordShadowMap) == 0) {
     ++device_.counters().shadowMapsSkipped;
     return Status::Ok;
   }
   ++device_.counters().shadowMapUpdates;
-  status = shafts_.recordShadowMap(commands, frame_.state.sun.direction, frame_.casters);
+  status = lightShafts_.recordShadowMap(commands, frame_.state.sun.direction, frame_.casters);
   frame_.mapRecorded = status == Status::Ok;
   return status;
 }
 
 Status View::recordLightShafts(VkCommandBuffer commands) {
   Status status = checkBegun("recordLightShafts");
-  if (status != Status::Ok || !desc_.hasShafts) return status;
+  if (status != Status::Ok || !desc_.hasLightShafts) return status;
   if (!frame_.mapRecorded && (needed() & kRecordShadowMap) != 0) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "recordLightShafts needs the shadow map of this frame, but recordShadowMap "
@@ -366,9 +334,9 @@ Status View::recordLightShafts(VkCommandBuffer commands) {
     }
     lut = aerialSet_;
   }
-  status = shafts_.record(commands, *frame_.tables, frame_.state, frame_.sceneDepth,
-                          frame_.casters, lut);
-  frame_.shaftsRecorded = status == Status::Ok;
+  status = lightShafts_.record(commands, *frame_.tables, frame_.state, frame_.sceneDepth,
+                               frame_.casters, lut);
+  frame_.lightShaftsRecorded = status == Status::Ok;
   return status;
 }
 
@@ -381,7 +349,7 @@ Status View::recordAerialPerspective(VkCommandBuffer commands) {
                         "recordAerialPerspective needs the LUTs of this frame, but recordLuts was "
                         "not called after beginFrame.");
   }
-  if (desc_.hasShafts && !frame_.shaftsRecorded) {
+  if (desc_.hasLightShafts && !frame_.lightShaftsRecorded) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "recordAerialPerspective needs the light shafts of this frame, but "
                         "recordLightShafts was not called after beginFrame.");
@@ -399,7 +367,7 @@ Status View::recordSky(VkCommandBuffer commands) {
                         "recordSky needs the sky-view LUT of this frame, but recordLuts was not "
                         "called after beginFrame.");
   }
-  if (desc_.hasShafts && !frame_.shaftsRecorded) {
+  if (desc_.hasLightShafts && !frame_.lightShaftsRecorded) {
     return device_.fail(Status::InvalidArgument, VK_SUCCESS,
                         "recordSky needs the light shafts of this frame, but recordLightShafts was "
                         "not called after beginFrame.");
@@ -412,7 +380,7 @@ Status View::recordSky(VkCommandBuffer commands) {
 void View::frameAbandoned(uint64_t frame) {
   skyLut_.lut().abandon(frame);
   aerialLut_.lut().abandon(frame);
-  shafts_.abandon(frame);
+  lightShafts_.abandon(frame);
 }
 
 void View::objectDestroyed(const FrameObject* object) {
@@ -425,7 +393,7 @@ void View::info(ViewInfo* out) const {
   out->setLayouts[kViewSetTables] = resources_.tableLayout();
   out->setLayouts[kViewSetSky] = pictureSets_.layout();
   out->setLayouts[kViewSetAerialPerspective] = aerialLayout_;
-  out->setLayouts[kViewSetLightShafts] = shafts_.setLayout();
+  out->setLayouts[kViewSetLightShafts] = lightShafts_.setLayout();
 }
 
 void View::answer(FrameWork* work) const {
@@ -433,15 +401,15 @@ void View::answer(FrameWork* work) const {
   const FrameState& state = frame_.state;
   work->record = needed();
   for (uint32_t i = 0; i < frame_.parts.count; ++i) {
-    const sky::Visible& seen = frame_.parts.parts[i].visible;
+    const passes::Visible& seen = frame_.parts.parts[i].visible;
     if (seen.air) work->visible |= kVisibleSky;
     if (seen.ground) work->visible |= kVisibleGround;
     if (seen.disc) work->visible |= kVisibleSun;
     if (!seen.air) work->visible |= kVisibleSpace;
   }
   if (desc_.picture.aerial) work->visible |= kVisibleScene;
-  work->altitude_m = sky::cameraAltitude(parameters, state.camera);
-  const Spectrum light = sky::sunlight(parameters, state);
+  work->altitude_m = passes::cameraAltitude(parameters, state.camera);
+  const Spectrum light = passes::sunlight(parameters, state);
   const double scale = state.radianceScale == 0.0 ? 1.0 : state.radianceScale;
   constexpr double kLuminance[] = {0.2126, 0.7152, 0.0722};  // Rec.709.
   for (uint32_t i = 0; i < kSpectrumSize; ++i) {
@@ -455,11 +423,12 @@ void View::answer(FrameWork* work) const {
     if (skyLut_.lut().count() > 1) images[kViewSkyLutMie] = infoOf(skyLut_.mieImage());
   }
   if (aerialLut_.made()) {
-    for (uint32_t i = 0; i < sky::AirVolume::kImages; ++i)
+    for (uint32_t i = 0; i < passes::AerialPerspectiveLut::kImages; ++i)
       images[kViewAerialPerspectiveLut0 + i] = infoOf(aerialLut_.image(i));
   }
-  if (desc_.hasShafts && shafts_.mapped()) images[kViewShadowMap] = infoOf(shafts_.map().depth());
-  if (shafts_.targetCount() > 0) images[kViewLightShafts] = infoOf(shafts_.target(0));
+  if (desc_.hasLightShafts && lightShafts_.mapped())
+    images[kViewShadowMap] = infoOf(lightShafts_.map().depth());
+  if (lightShafts_.targetCount() > 0) images[kViewLightShafts] = infoOf(lightShafts_.target(0));
   if (!desc_.picture.aerial) return;
   ImageInfo& depth = images[kViewSceneDepth];
   depth.name = "scene depth";
@@ -467,8 +436,8 @@ void View::answer(FrameWork* work) const {
   depth.format = desc_.picture.sceneDepthFormat;
   depth.extent = {frame_.sceneDepth.extent.width, frame_.sceneDepth.extent.height, 1};
   depth.layout = frame_.sceneDepth.layout;
-  depth.stage = VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
-                VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT;
+  depth.stage =
+      VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT;
   depth.access =
       VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
 }

@@ -1,10 +1,11 @@
 // One picture: composes the passes. What the public handle alpenglow::View points to.
 #pragma once
 
-#include "atmosphere/shafts/shaft_pass.h"
-#include "atmosphere/sky/sky_pass.h"
+#include "atmosphere/passes/light_shaft_pass.h"
+#include "atmosphere/passes/sky_pass.h"
 #include "atmosphere/view/frame.h"
 #include "atmosphere/view/view_desc.h"
+#include "atmosphere/view/warnings.h"
 #include "engine/frame_sets.h"
 #include "engine/frames.h"
 
@@ -15,7 +16,7 @@ inline namespace v1 {
 struct View : public engine::FrameObject {
  public:
   /// The description has been checked. `tables` stay the default of FrameDesc::tables.
-  static Status create(bake::Resources& resources, const Tables& tables, const ViewDesc& desc,
+  static Status create(tables::Resources& resources, const Tables& tables, const ViewDesc& desc,
                        View** out);
   static void destroy(View* view, uint64_t frame);
 
@@ -32,14 +33,14 @@ struct View : public engine::FrameObject {
   void objectDestroyed(const FrameObject* object) override;
   void destroyNow() override { destroy(this, 0); }
 
-  bake::Resources& resources() const { return resources_; }
+  tables::Resources& resources() const { return resources_; }
   const PictureDesc& picture() const { return desc_.picture; }
-  shafts::LightShaftPass& lightShafts() { return shafts_; }
-  sky::SkySlice& skyLut() { return skyLut_; }
-  sky::AirVolume& aerialLut() { return aerialLut_; }
+  passes::LightShaftPass& lightShafts() { return lightShafts_; }
+  passes::SkyViewLut& skyLut() { return skyLut_; }
+  passes::AerialPerspectiveLut& aerialLut() { return aerialLut_; }
 
  private:
-  View(bake::Resources& resources, const Tables& tables, const ViewDesc& desc);
+  View(tables::Resources& resources, const Tables& tables, const ViewDesc& desc);
   ~View() override = default;
   Status make(const Tables& tables);
   Status makeSets();
@@ -47,25 +48,24 @@ struct View : public engine::FrameObject {
   Status checkTables(const Tables& tables) const;
   Status takeFrame(const FrameDesc& desc);
   Status prepareSets();
-  void warn(const Parameters& parameters, const FrameDesc& desc);
   void answer(FrameWork* work) const;
   RecordFlags needed() const;
   /// Ok, NotReady where beginFrame failed, or a sentence when it was not called for this frame.
   Status checkBegun(const char* call) const;
   bool skyFromLut() const;
 
-  bake::Resources& resources_;
+  tables::Resources& resources_;
   engine::Device& device_;
   view::ResolvedView desc_;
   const Tables* tables_;  ///< Of createView.
   uint64_t tablesId_;
   TableDesc shape_;  ///< Of the tables of createView.
 
-  sky::SkySlice skyLut_;
-  sky::AirVolume aerialLut_;
-  shafts::LightShaftPass shafts_;
-  sky::SkyPass skyPass_;
-  sky::AirPass aerialPass_;
+  passes::SkyViewLut skyLut_;
+  passes::AerialPerspectiveLut aerialLut_;
+  passes::LightShaftPass lightShafts_;
+  passes::SkyPass skyPass_;
+  passes::AirPass aerialPass_;
   engine::FrameSets pictureSets_;  ///< Set 1.
   bool hasPictureSet_ = false;
   VkDescriptorSet fixedSet_ = VK_NULL_HANDLE;  ///< Set 1 of a view without scene depth.
@@ -82,15 +82,15 @@ struct View : public engine::FrameObject {
     FrameState state;
     HostImage sceneDepth;
     CasterSet casters;
-    sky::Parts parts;
-    sky::SkyConstants skyConstants;
-    sky::AirConstants aerialConstants;
-    sky::PictureSets sets;
+    passes::ViewportPartition parts;
+    passes::SkyConstants skyConstants;
+    passes::AerialPerspectiveConstants aerialConstants;
+    passes::PictureSets sets;
     bool mapRecorded = false;  ///< The shadow map was drawn.
-    bool shaftsRecorded = false;
+    bool lightShaftsRecorded = false;
   };
   Frame frame_;
-  uint32_t warned_ = 0;  ///< Bits of view::Warning.
+  view::Warnings warnings_;
 };
 
 }  // namespace v1

@@ -2,8 +2,8 @@
 
 #include <bit>
 
-#include "atmosphere/model/solvers.h"
-#include "atmosphere/shafts/shaft_pass.h"
+#include "atmosphere/parameters/solvers.h"
+#include "atmosphere/passes/light_shaft_pass.h"
 
 namespace alpenglow::view {
 namespace {
@@ -20,16 +20,16 @@ Status checkLater(const engine::Device& device, const ViewDesc& desc) {
   const struct {
     const char* member;
     bool given;
-  } members[] = {{"viewMask", desc.viewMask != 0},
-                 {"color", desc.color != ColorSpace::Rec709},
-                 {"skyLightDegree", desc.skyLightDegree != 0},
-                 {"environmentSize", desc.environmentSize != 0},
-                 {"environmentLevels", desc.environmentLevels != 0},
-                 {"environmentFlags", desc.environmentFlags != 0},
-                 {"lutTolerance", desc.lutTolerance != 0.0},
-                 {"lutFrames", desc.lutFrames > 1},
-                 {"aerialPerspective as LutOnly",
-                  desc.aerialPerspective == AerialPerspective::LutOnly}};
+  } members[] = {
+      {"viewMask", desc.viewMask != 0},
+      {"color", desc.color != ColorSpace::Rec709},
+      {"skyLightDegree", desc.skyLightDegree != 0},
+      {"environmentSize", desc.environmentSize != 0},
+      {"environmentLevels", desc.environmentLevels != 0},
+      {"environmentFlags", desc.environmentFlags != 0},
+      {"lutTolerance", desc.lutTolerance != 0.0},
+      {"lutFrames", desc.lutFrames > 1},
+      {"aerialPerspective as LutOnly", desc.aerialPerspective == AerialPerspective::LutOnly}};
   for (const auto& entry : members)
     if (entry.given) return later(device, entry.member);
   return Status::Ok;
@@ -125,10 +125,11 @@ Status checkTarget(const engine::Device& device, const ViewDesc& desc, uint32_t 
 Status checkEffects(const engine::Device& device, const TableDesc& tables, const ViewDesc& desc) {
   const EffectFlags known = kViewEffects | (tables.disabledEffects & kTableEffects);
   if ((desc.disabledEffects & ~known) != 0) {
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "ViewDesc::disabledEffects is 0x%x, but may have bits of kViewEffects and of "
-                       "the effects that the tables lack alone: 0x%x.",
-                       desc.disabledEffects, known);
+    return device.fail(
+        Status::InvalidArgument, VK_SUCCESS,
+        "ViewDesc::disabledEffects is 0x%x, but may have bits of kViewEffects and of "
+        "the effects that the tables lack alone: 0x%x.",
+        desc.disabledEffects, known);
   }
   if (desc.projection == Projection::Orthographic &&
       !hasEffect(desc.disabledEffects, Effect::SpaceViews)) {
@@ -142,7 +143,7 @@ Status checkEffects(const engine::Device& device, const TableDesc& tables, const
 Status checkAerial(const engine::Device& device, const ResolvedView& view, uint32_t samples) {
   const PictureDesc& desc = view.picture;
   if (!desc.aerial) {
-    if (!view.hasShafts) return Status::Ok;
+    if (!view.hasLightShafts) return Status::Ok;
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
                        "ViewDesc::lightShafts has a method, but light shafts need "
                        "ViewDesc::aerialPerspective.");
@@ -163,14 +164,15 @@ Status checkAerial(const engine::Device& device, const ResolvedView& view, uint3
                        "aerial perspective is blended over the host's picture.",
                        static_cast<int>(desc.colorFormat));
   }
-  if (!view.hasShafts) return Status::Ok;
+  if (!view.hasLightShafts) return Status::Ok;
   if (desc.solver != Solver::Moments) {
-    return device.fail(Status::InvalidArgument, VK_SUCCESS,
-                       "ViewDesc::lightShafts has a method, but the tables are of Solver::%s: light "
-                       "shafts need Solver::Moments.",
-                       solverEnumerator(desc.solver));
+    return device.fail(
+        Status::InvalidArgument, VK_SUCCESS,
+        "ViewDesc::lightShafts has a method, but the tables are of Solver::%s: light "
+        "shafts need Solver::Moments.",
+        solverEnumerator(desc.solver));
   }
-  return shafts::checkShaftSettings(device, view.shafts);
+  return passes::checkLightShaftSettings(device, view.shafts);
 }
 
 }  // namespace
@@ -194,20 +196,20 @@ ResolvedView resolve(const TableDesc& tables, const ViewDesc& desc) {
     p.groundAlbedo.layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
   p.disabledEffects = desc.disabledEffects | tables.disabledEffects;
   const bool parallel = desc.projection == Projection::Orthographic;
-  p.skyLut = desc.sky == SkyMethod::Lut && !parallel && hasSkySlice(tables.solver);
+  p.skyLut = desc.sky == SkyMethod::Lut && !parallel && hasSkyViewLut(tables.solver);
   // The others have no LUT above the top of the atmosphere.
   p.onlyLut = p.skyLut && (tables.solver == Solver::Moments ||
                            !hasEffect(p.disabledEffects, Effect::SpaceViews));
   p.aerial = desc.aerialPerspective != AerialPerspective::Off;
   p.aerialLut = desc.aerialPerspective == AerialPerspective::On && !parallel &&
                 tables.solver == Solver::Moments;
-  out.hasShafts = desc.lightShafts.method != LightShaftMethod::Off;
+  out.hasLightShafts = desc.lightShafts.method != LightShaftMethod::Off;
   static_cast<LightShaftDesc&>(out.shafts) = desc.lightShafts;
   out.shafts.sceneDepthFormat = p.sceneDepthFormat;
   out.shafts.depth = p.depth;
   out.shafts.projection = p.projection;
   out.shafts.disabledEffects = p.disabledEffects;
-  out.shafts = shafts::completed(out.shafts);
+  out.shafts = passes::completed(out.shafts);
   out.readers = desc.readerStages != 0 ? desc.readerStages : kDefaultReaders;
   return out;
 }

@@ -1,16 +1,16 @@
 // What a host may ask of a view, and what it stands for.
 #pragma once
 
-#include "atmosphere/bake/table_set.h"
-#include "atmosphere/sky/picture.h"
+#include "atmosphere/camera/picture.h"
+#include "atmosphere/tables/table_set.h"
 
 namespace alpenglow::view {
 
 /// A ViewDesc with what the tables add.
 struct ResolvedView {
   PictureDesc picture;
-  bool hasShafts = false;
-  ShaftSettings shafts;  ///< Completed.
+  bool hasLightShafts = false;
+  LightShaftSettings shafts;  ///< Completed.
   VkPipelineStageFlags2 readers = 0;
 };
 

@@ -170,41 +170,44 @@ void addSizeOption(CLI::App* command, std::string* size) {
       ->check(checkPictureSize);
 }
 
-void addWalkOptions(CLI::App* command, RenderArguments* arguments) {
+void addFlythroughOptions(CLI::App* command, RenderArguments* arguments) {
+  command->add_option("--walk", arguments->flythrough)->group("");  // The former name.
   command
-      ->add_option("--walk", arguments->walk,
-                   "Render a walk instead of a scene, a sample walk's name or a walk file: each "
+      ->add_option("--flythrough", arguments->flythrough,
+                   "Render a flythrough instead of a scene, a sample flythrough's name or a "
+                   "flythrough file: each "
                    "frame a picture in the folder of -o, frame_00000.png onward")
-      ->type_name("WALK.json");
+      ->type_name("FLYTHROUGH.json");
   command
-      ->add_option("--format-image", arguments->imageFormat, "Of a walk's pictures (default png)")
+      ->add_option("--format-image", arguments->imageFormat,
+                   "Of a flythrough's pictures (default png)")
       ->type_name("png|exr")
       ->check(oneOf({"png", "exr"}));
   command
       ->add_option("--frames", arguments->frames,
-                   "The frames of a walk to render, such as 0,24,48-96 (default: all)")
+                   "The frames of a flythrough to render, such as 0,24,48-96 (default: all)")
       ->type_name("LIST")
       ->check(checkFrames);
 }
 
-void addShaftOptions(CLI::App* command, RenderArguments* arguments) {
+void addLightShaftOptions(CLI::App* command, RenderArguments* arguments) {
   command
       ->add_option("--shafts", arguments->shafts,
-                   "Light shafts of a terrain: exact, the sum over all lit stretches of a ray; "
+                   "Light shafts of a terrain: exact, the sum over all lit segments of a ray; "
                    "paper, one length of shadow a ray; march, samples along it; off; or auto, "
                    "exact where there is terrain and the device can (default: the scene's)")
       ->type_name("METHOD")
       ->check(oneOf({"exact", "paper", "march", "off", "auto"}));
   command
-      ->add_option("--shaft-samples", arguments->shaftSamples,
-                   "Samples along a ray, of march, 1 to " + std::to_string(io::kMaxShaftSamples) +
-                       " (default: the scene's)")
+      ->add_option("--shaft-samples", arguments->lightShaftStepCount,
+                   "Samples along a ray, of march, 1 to " +
+                       std::to_string(io::kMaxLightShaftSteps) + " (default: the scene's)")
       ->type_name("N")
       ->check([](const std::string& text) {
         const uint64_t samples = isWholeNumber(text) ? parseSamples(text) : 0;
-        if (samples >= 1 && samples <= io::kMaxShaftSamples) return std::string();
+        if (samples >= 1 && samples <= io::kMaxLightShaftSteps) return std::string();
         return "'" + text + "' is not a whole number from 1 to " +
-               std::to_string(io::kMaxShaftSamples);
+               std::to_string(io::kMaxLightShaftSteps);
       });
 }
 

@@ -46,12 +46,12 @@ struct BakeArguments {
 
 struct RenderArguments {
   std::string scene;
-  std::string walk;  ///< Instead of a scene.
+  std::string flythrough;  ///< Instead of a scene.
   std::optional<std::string> imageFormat;
   std::optional<std::string> frames;
   std::string size;
   std::optional<std::string> shafts;
-  std::optional<std::string> shaftSamples;
+  std::optional<std::string> lightShaftStepCount;
   TableArguments tables;
   RunArguments run;
 };
@@ -82,8 +82,8 @@ void addTableOptions(CLI::App* command, const std::string& keepOrdersHelp,
 void addTableFileOption(CLI::App* command, TableArguments* arguments);
 void addRunOptions(CLI::App* command, const std::string& outputHelp, RunArguments* arguments);
 void addSizeOption(CLI::App* command, std::string* size);
-void addWalkOptions(CLI::App* command, RenderArguments* arguments);
-void addShaftOptions(CLI::App* command, RenderArguments* arguments);
+void addFlythroughOptions(CLI::App* command, RenderArguments* arguments);
+void addLightShaftOptions(CLI::App* command, RenderArguments* arguments);
 void addMethodOptions(CLI::App* command, ProbeArguments* arguments);
 
 /// Whole numbers of a text that an option's check has accepted.

@@ -10,8 +10,8 @@ void runPresets(const std::string& name);
 void runBake(const BakeArguments& arguments);
 void runRender(const RenderArguments& arguments);
 void runExplain(const ExplainArguments& arguments);
-/// What runRender does where --walk was given.
-void runWalk(const RenderArguments& arguments);
+/// What runRender does where --flythrough was given.
+void runFlythrough(const RenderArguments& arguments);
 void runProbe(const ProbeArguments& arguments);
 /// Where the program was built with Alpenglow::cost.
 void runCost(const CostArguments& arguments);

@@ -1,6 +1,6 @@
 #include "frame_list.h"
 
-#include <alpenglow/io/walk_file.h>
+#include <alpenglow/io/flythrough_file.h>
 
 #include <algorithm>
 #include <optional>
@@ -21,7 +21,7 @@ std::optional<uint32_t> frameOf(const std::string& text) {
                       text.find_first_not_of("0123456789") == std::string::npos;
   if (!digits) return std::nullopt;
   const auto frame = static_cast<uint32_t>(std::stoul(text));
-  return frame < io::kMaxWalkFrames ? std::optional(frame) : std::nullopt;
+  return frame < io::kMaxFlythroughFrames ? std::optional(frame) : std::nullopt;
 }
 
 std::optional<FrameRange> rangeOf(const std::string& text) {
@@ -56,7 +56,7 @@ std::vector<uint32_t> parseFrames(const std::string& text, uint32_t count) {
   for (const FrameRange& range : rangesOf(text).value_or(std::vector<FrameRange>())) {
     if (range.last >= count) {
       throw Failure("--frames " + text + " names frame " + std::to_string(range.last) +
-                        ", but the walk's last is " + std::to_string(count - 1) + ".",
+                        ", but the flythrough's last is " + std::to_string(count - 1) + ".",
                     Failure::kUsage);
     }
     for (uint32_t frame = range.first; frame <= range.last; ++frame) frames.push_back(frame);

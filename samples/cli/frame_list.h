@@ -1,4 +1,4 @@
-// Which frames of a walk are wanted, as --frames names them.
+// Which frames of a flythrough are wanted, as --frames names them.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace alpenglow::cli {
 /// anything else, and for a frame that isn't below `count`.
 std::vector<uint32_t> parseFrames(const std::string& text, uint32_t count);
 
-/// An option's check: empty when the text names frames, else what is wrong with it.
+/// An option's check: empty when the string names frames, else what is wrong with it.
 std::string checkFrames(const std::string& text);
 
 }  // namespace alpenglow::cli

@@ -45,15 +45,15 @@ void addBake(CLI::App* app, Arguments* arguments) {
 void addRender(CLI::App* app, Arguments* arguments) {
   RenderArguments* render = &arguments->render;
   CLI::App* command =
-      app->add_subcommand("render", "Render a scene to a picture, or a walk to many");
+      app->add_subcommand("render", "Render a scene to a picture, or a flythrough to many");
   command->add_option("SCENE", render->scene, "A sample scene's name or a scene file");
   addRunOptions(command,
                 "The picture to write: .exr for linear radiance, .png for an exposed and tone "
-                "mapped picture; of a walk, the folder",
+                "mapped picture; of a flythrough, the folder",
                 &render->run);
-  addWalkOptions(command, render);
+  addFlythroughOptions(command, render);
   addSizeOption(command, &render->size);
-  addShaftOptions(command, render);
+  addLightShaftOptions(command, render);
   addTableOptions(command, kKeepOrdersHelp, &render->tables);
   addTableFileOption(command, &render->tables);
   command->callback([render] { runRender(*render); });

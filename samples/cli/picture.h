@@ -29,9 +29,9 @@ void writePicture(const std::string& path, const io::Scene& scene, const io::Lin
 class Painter {
  public:
   /// `albedo`, of the ground, and `scenery` may be null; `tables` are as those that it will draw
-  /// with, by a plan that serves all of them. Throws a Failure.
-  Painter(Session* session, const io::AlbedoMap* albedo,
-          const ReadyTables& tables, const Plan& plan, Scenery* scenery);
+  /// with, by a plan that covers all of them. Throws a Failure.
+  Painter(Session* session, const io::AlbedoMap* albedo, const ReadyTables& tables,
+          const Plan& plan, Scenery* scenery);
   Painter(const Painter&) = delete;
   Painter& operator=(const Painter&) = delete;
 
@@ -40,8 +40,7 @@ class Painter {
   io::LinearImage draw(const io::Scene& scene, const Tables* tables, const PictureTarget& target);
 
  private:
-  void drawPlain(const FrameDesc& draw, const headless::Image& target,
-                 const RecordFn& stars);
+  void drawPlain(const FrameDesc& draw, const headless::Image& target, const RecordFn& stars);
 
   Session* session_;
   samples::Gpu gpu_;

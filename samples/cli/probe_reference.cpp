@@ -81,7 +81,7 @@ std::vector<ReferenceAnswer> answerByReference(const Parameters& parameters,
   Tracing tracing;
   ReferenceOptions options;
   options.orders = orders;
-  options.samples = samples;
+  options.pathCount = samples;
   options.parallelFor = Tracing::run;
   options.parallelUser = &tracing;
   std::vector<ReferenceAnswer> answers(queries.size());

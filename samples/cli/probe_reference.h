@@ -9,7 +9,7 @@
 namespace alpenglow::cli {
 
 /// All answers, with a progress bar, on all cores; `orders` 0 is all of them. `samples` paths for
-/// each query; 0: until the error that docs/reference.md states. Throws a Failure.
+/// each query; 0: until the error that docs/reference-solution.md states. Throws a Failure.
 std::vector<ReferenceAnswer> answerByReference(const Parameters& parameters,
                                                const std::vector<io::NamedQuery>& queries,
                                                uint32_t orders, uint64_t samples);

@@ -23,7 +23,7 @@ void writePicture(const std::string& path, const io::Scene& scene, const io::Lin
 namespace {
 
 // What the options and the scene leave open is planned; a table file is what it is.
-Plan planPicture(const RenderArguments& arguments, io::Scene scene, const ShaftChoice& shafts,
+Plan planPicture(const RenderArguments& arguments, io::Scene scene, const LightShaftChoice& shafts,
                  TableRequest* request) {
   scene.shafts = shafts.method;  // Options beat the scene.
   if (request->file) {
@@ -43,21 +43,22 @@ Plan planPicture(const RenderArguments& arguments, io::Scene scene, const ShaftC
 }
 
 void checkWhatIsRendered(const RenderArguments& arguments) {
-  const bool walks = !arguments.walk.empty();
-  if (walks && !arguments.scene.empty()) {
-    throw Failure("The scene '" + arguments.scene + "' and the walk '" + arguments.walk +
-                      "' were given; one of them was expected.",
+  const bool flythroughs = !arguments.flythrough.empty();
+  if (flythroughs && !arguments.scene.empty()) {
+    throw Failure("The scene '" + arguments.scene + "' and the flythrough '" +
+                      arguments.flythrough + "' were given; one of them was expected.",
                   Failure::kUsage);
   }
-  if (!walks && arguments.scene.empty()) {
-    throw Failure("Neither SCENE nor --walk was given; one of them was expected.", Failure::kUsage);
+  if (!flythroughs && arguments.scene.empty()) {
+    throw Failure("Neither SCENE nor --flythrough was given; one of them was expected.",
+                  Failure::kUsage);
   }
   for (const auto& [name, value] : {std::pair("--format-image", &arguments.imageFormat),
                                     std::pair("--frames", &arguments.frames)}) {
-    if (walks || !*value) continue;
-    throw Failure(
-        std::string(name) + " " + **value + " belongs to a walk, but --walk wasn't given.",
-        Failure::kUsage);
+    if (flythroughs || !*value) continue;
+    throw Failure(std::string(name) + " " + **value +
+                      " belongs to a flythrough, but --flythrough wasn't given.",
+                  Failure::kUsage);
   }
 }
 
@@ -65,7 +66,7 @@ void checkWhatIsRendered(const RenderArguments& arguments) {
 
 void runRender(const RenderArguments& arguments) {
   checkWhatIsRendered(arguments);
-  if (!arguments.walk.empty()) return runWalk(arguments);
+  if (!arguments.flythrough.empty()) return runFlythrough(arguments);
   const std::string& output = arguments.run.output;
   checkEnding(output, {".exr", ".png"});
   io::Scene scene = take(io::readScene(samples::findSample("scenes", arguments.scene)));
@@ -74,9 +75,10 @@ void runRender(const RenderArguments& arguments) {
   std::optional<io::AlbedoMap> albedo;
   if (!scene.albedoMap.empty()) albedo = take(io::readAlbedoMap(scene.albedoMap));
   TableRequest request = requestTables(arguments.tables, scene.atmosphere, &scene);
-  ShaftChoice shafts = chooseShafts(arguments, scene, request.desc.solver);
+  LightShaftChoice shafts = chooseLightShafts(arguments, scene, request.desc.solver);
   const Plan plan = planPicture(arguments, scene, shafts, &request);
-  if (plan.view.lightShafts.method == LightShaftMethod::Off) shafts.method = io::SceneShafts::Off;
+  if (plan.view.lightShafts.method == LightShaftMethod::Off)
+    shafts.method = io::SceneLightShafts::Off;
   const bool disc = plan.choices[static_cast<uint32_t>(Effect::SunDisc)].on;
   if (!disc) scene.sun.discRadius = 0.0;
   const SceneryFiles files = readScenery(scene);
@@ -85,13 +87,14 @@ void runRender(const RenderArguments& arguments) {
   // Loaded tables need nothing of a bake.
   const CapabilityFlags bake = request.file ? CapabilityFlags{0} : kCapabilityBake;
   Session session(arguments.run.device,
-                  bake | (plan.capabilities & (kCapabilitySky | kCapabilityAir)) | shafts.needs(),
+                  bake | (plan.capabilities & (kCapabilitySky | kCapabilityAerialPerspective)) |
+                      shafts.requirements(),
                   shafts.wishes());
   const PictureTarget target = createPictureTarget(&session, scene.width, scene.height);
   const ReadyTables ready = obtainTables(&session, scene.atmosphere, std::move(request));
   std::optional<Scenery> scenery;
   if (scene.terrain || !scene.balloons.empty()) {
-    scenery.emplace(&session, scene, files, ready, describeShafts(shafts, session), plan);
+    scenery.emplace(&session, scene, files, ready, describeLightShafts(shafts, session), plan);
   }
   Painter painter(&session, albedo ? &*albedo : nullptr, ready, plan,
                   scenery ? &*scenery : nullptr);

@@ -6,8 +6,7 @@ namespace alpenglow::cli {
 namespace {
 
 samples::LandscapeDesc describeLandscape(Session* session, const io::Scene& scene,
-                                         const ReadyTables& tables,
-                                         const LightShaftDesc& shafts) {
+                                         const ReadyTables& tables, const LightShaftDesc& shafts) {
   samples::LandscapeDesc desc;
   desc.context = session->context();
   desc.size = {scene.width, scene.height};
@@ -35,7 +34,7 @@ Scenery::Scenery(Session* session, const io::Scene& scene, const SceneryFiles& f
                  const ReadyTables& tables, const LightShaftDesc& shafts, const Plan& plan)
     : session_(session),
       gpu_(session->gpu()),
-      hasAir_(plan.view.aerialPerspective != AerialPerspective::Off),
+      hasAerialPerspective_(plan.view.aerialPerspective != AerialPerspective::Off),
       landscape_(&gpu_, scene, files.mesh ? &*files.mesh : nullptr,
                  files.albedo ? &*files.albedo : nullptr,
                  describeLandscape(session, scene, tables, shafts)) {}
@@ -44,10 +43,10 @@ void Scenery::describe(ViewDesc* view) const { landscape_.describe(view); }
 
 void Scenery::follow(const View* view) { landscape_.follow(view); }
 
-void Scenery::drawShafts(View* view) {
+void Scenery::drawLightShafts(View* view) {
   session_->run([&](VkCommandBuffer commands) {
     session_->check(recordShadowMap(view, commands));
-    return "sun map";
+    return "shadow map";
   });
   session_->run([&](VkCommandBuffer commands) {
     session_->check(recordLightShafts(view, commands));
@@ -70,26 +69,26 @@ void Scenery::drawInto(const headless::Image& target, const FrameDesc& draw, con
 void Scenery::draw(View* view, const Tables* tables, FrameDesc frame, const headless::Image& target,
                    const RecordFn& stars) {
   landscape_.describe(&frame);
-  // An engine records all this into one command buffer; here each pass is run and timed alone, which
-  // takes a frame of the library each time.
+  // An engine records all this into one command buffer; here each pass is run and timed alone,
+  // which takes a frame of the library each time.
   FrameWork work;
   session_->run([&](VkCommandBuffer commands) {
     session_->check(beginFrame(view, frame, &work));
     session_->check(recordLuts(view, commands));
-    return "sky slice";
+    return "sky-view LUT";
   });
   const bool terrain = landscape_.hasTerrain();
-  const bool hasShafts = (work.record & kRecordLightShafts) != 0;
+  const bool hasLightShafts = (work.record & kRecordLightShafts) != 0;
   if (terrain) {
     session_->run([&](VkCommandBuffer commands) {
       landscape_.recordFrame(commands, frame, work.sets[kViewSetLightShafts]);
       landscape_.recordDepth(commands, frame);
       return "terrain depth";
     });
-    if (hasShafts) drawShafts(view);
+    if (hasLightShafts) drawLightShafts(view);
     drawInto(target, frame, "terrain", true,
              [&](VkCommandBuffer commands) { landscape_.recordTerrain(commands, tables, frame); });
-    if (hasAir_)
+    if (hasAerialPerspective_)
       drawInto(target, frame, "air", false, [&](VkCommandBuffer commands) {
         session_->check(recordAerialPerspective(view, commands));
       });

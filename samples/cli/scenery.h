@@ -5,8 +5,8 @@
 
 #include <optional>
 
+#include "light_shaft_choice.h"
 #include "picture_target.h"
-#include "shaft_choice.h"
 #include "tables.h"
 #include "terrain/landscape.h"
 
@@ -42,13 +42,13 @@ class Scenery {
   }
 
  private:
-  void drawShafts(View* view);
+  void drawLightShafts(View* view);
   void drawInto(const headless::Image& target, const FrameDesc& draw, const char* pass, bool first,
                 const RecordFn& record);
 
   Session* session_;
   samples::Gpu gpu_;
-  bool hasAir_;
+  bool hasAerialPerspective_;
   samples::Landscape landscape_;
 };
 

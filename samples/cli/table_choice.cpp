@@ -42,7 +42,7 @@ TableDesc describeModel(const TableArguments& arguments, const io::Scene& scene)
   }
   TableDesc desc;
   desc.solver = *io::solverOf(scene.model);
-  desc.sizes.stepCount = scene.modelSamples.value_or(0);
+  desc.sizes.stepCount = scene.modelStepCount.value_or(0);
   return desc;
 }
 

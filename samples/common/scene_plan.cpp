@@ -20,17 +20,17 @@ void describeCamera(const io::Scene& scene, PlanRequest* request) {
   request->altitudeFrom_m = std::max(own - around, 0.0);
   // 0 would be no limit.
   request->altitudeTo_m = std::max(own + around, 1.0);
-  if (!scene.needs || !scene.needs->altitude_m[0]) return;
-  request->altitudeFrom_m = *scene.needs->altitude_m[0];
-  request->altitudeTo_m = std::max(*scene.needs->altitude_m[1] + around, 1.0);
+  if (!scene.requirements || !scene.requirements->altitude_m[0]) return;
+  request->altitudeFrom_m = *scene.requirements->altitude_m[0];
+  request->altitudeTo_m = std::max(*scene.requirements->altitude_m[1] + around, 1.0);
 }
 
 void describeSun(const io::Scene& scene, PlanRequest* request) {
   const double around = spread(scene) / scene.atmosphere.bottomRadius_m;
   double from = scene.sun.elevation, to = from;
-  if (scene.needs && scene.needs->sunElevation[0]) {
-    from = *scene.needs->sunElevation[0];
-    to = *scene.needs->sunElevation[1];
+  if (scene.requirements && scene.requirements->sunElevation[0]) {
+    from = *scene.requirements->sunElevation[0];
+    to = *scene.requirements->sunElevation[1];
   }
   constexpr double kRightAngle = 1.5707963267948966;
   request->sunElevationFrom = std::clamp(from - around, -kRightAngle, kRightAngle);
@@ -93,18 +93,18 @@ PlanRequest requestOf(const io::Scene& scene) {
   describeCamera(scene, &request);
   describeSun(scene, &request);
   request.visible = kVisibleSky | kVisibleGround | kVisibleSpace | kVisibleSun;
-  if (!scene.needs)
+  if (!scene.requirements)
     request.visible = visibleFrom(scene.atmosphere, request.view.projection, describeDraw(scene));
   if (scene.terrain) request.visible |= kVisibleScene;
   request.sunDiscRadius = scene.sun.discRadius;
   request.exposure = scene.exposure.value_or(0.0);
-  request.casters = scene.terrain.has_value() && scene.shafts != io::SceneShafts::Off;
+  request.casters = scene.terrain.has_value() && scene.shafts != io::SceneLightShafts::Off;
   std::copy_n(scene.effects, kEffectCount, request.effects);
-  if (scene.needs) {
-    request.exposure = scene.needs->exposure.value_or(0.0);
-    request.errorTarget = scene.needs->error;
-    request.budgetBytes = scene.needs->budgetBytes;
-    request.budgetSeconds = scene.needs->budgetSeconds;
+  if (scene.requirements) {
+    request.exposure = scene.requirements->exposure.value_or(0.0);
+    request.errorTarget = scene.requirements->error;
+    request.budgetBytes = scene.requirements->budgetBytes;
+    request.budgetSeconds = scene.requirements->budgetSeconds;
   }
   keepTables(scene, &request);
   return request;
@@ -116,7 +116,7 @@ PlanRequest requestOfFlight(const io::Scene& scene) {
   request.visible = kVisibleSky | kVisibleGround | kVisibleSpace | kVisibleSun;
   if (scene.terrain) request.visible |= kVisibleScene;
   request.sunDiscRadius = std::max(scene.sun.discRadius, 1e-3);
-  request.casters = scene.terrain.has_value() && scene.shafts != io::SceneShafts::Off;
+  request.casters = scene.terrain.has_value() && scene.shafts != io::SceneLightShafts::Off;
   std::copy_n(scene.effects, kEffectCount, request.effects);
   keepTables(scene, &request);
   return request;
@@ -151,7 +151,7 @@ TableDesc tablesOf(const io::Scene& scene) {
   desc.orders = scene.orders.value_or(scene.model == io::SceneModel::Single ? 1 : 0);
   if (const std::optional<Solver> model = io::solverOf(scene.model)) {
     desc.solver = *model;
-    desc.sizes.stepCount = scene.modelSamples.value_or(0);
+    desc.sizes.stepCount = scene.modelStepCount.value_or(0);
   }
   if (desc.solver == Solver::Moments) desc.quality = scene.quality.value_or(Quality::Default);
   return desc;

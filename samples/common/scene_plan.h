@@ -16,8 +16,8 @@ void checkScenery(const io::Scene& scene);
 /// Camera, sun and viewport of a scene's picture.
 FrameDesc describeDraw(const io::Scene& scene);
 
-/// What a scene may ask for: all of SceneNeeds, or, of a still, its camera and sun and what they
-/// see.
+/// What a scene may ask for: all of SceneRequirements, or, of a still, its camera and sun and what
+/// they see.
 PlanRequest requestOf(const io::Scene& scene);
 
 /// Those of a camera and a sun that may go anywhere.

@@ -28,7 +28,7 @@ constexpr uint64_t kSliceUnits = 50'000'000;  // About so many table fetches in 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 struct Host {
-  ag::ContextDesc vulkan;  // Instance, devices and what is enabled: what Alpenglow will be told.
+  ag::ContextDesc vulkan;  // Instance, devices and what is enabled: what Alpenglow gets.
   uint32_t family = 0;
   VkQueue queue{};
   VkCommandPool pool{};
@@ -37,7 +37,8 @@ struct Host {
   VkImageView view{};
   VkBuffer buffer{};  // ... and read through this.
   VkDeviceMemory imageMemory{}, bufferMemory{};
-  ag::FrameInfo frame{1, 0};  // The frame being recorded, and the last one finished.
+  ag::Context* context{};
+  uint64_t frame = 0;  // The newest that was recorded, and has finished.
 };
 
 [[noreturn]] void fail(const std::string& sentence) {
@@ -70,15 +71,12 @@ void makeDevice(Host& host) {
   count = 16;
   vkGetPhysicalDeviceQueueFamilyProperties(vk.physicalDevice, &count, families);
   constexpr VkQueueFlags kWanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-  while (host.family < count && (families[host.family].queueFlags & kWanted) != kWanted) {
+  while (host.family < count && (families[host.family].queueFlags & kWanted) != kWanted)
     ++host.family;
-  }
   if (host.family == count) fail("The device has no queue for both graphics and compute.");
   VkPhysicalDeviceVulkan13Features features13{
       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-  const ag::DeviceFeatureFlags newer = vk.enabled.deviceFeatures;
-  features13.synchronization2 = (newer & ag::kFeatureSynchronization2) != 0;
-  features13.dynamicRendering = (newer & ag::kFeatureDynamicRendering) != 0;
+  features13.synchronization2 = features13.dynamicRendering = VK_TRUE;
   VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &features13,
                                      vk.enabled.features};
   const float priority = 1.0f;
@@ -94,16 +92,15 @@ void makeDevice(Host& host) {
   check(vkAllocateCommandBuffers(vk.device, &commands, &host.commands), "Making commands");
 }
 
-VkDeviceMemory allocate(const Host& host, const VkMemoryRequirements& needs,
+VkDeviceMemory allocate(const Host& host, const VkMemoryRequirements& request,
                         VkMemoryPropertyFlags flags) {
   VkPhysicalDeviceMemoryProperties memory;
   vkGetPhysicalDeviceMemoryProperties(host.vulkan.physicalDevice, &memory);
   uint32_t type = 0;  // Vulkan promises that one fits.
-  while (!(needs.memoryTypeBits >> type & 1) ||
-         (memory.memoryTypes[type].propertyFlags & flags) != flags) {
+  while (!(request.memoryTypeBits >> type & 1) ||
+         (memory.memoryTypes[type].propertyFlags & flags) != flags)
     ++type;
-  }
-  VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size, type};
+  VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, request.size, type};
   VkDeviceMemory result{};
   check(vkAllocateMemory(host.vulkan.device, &info, nullptr, &result), "Allocating memory");
   return result;
@@ -111,7 +108,7 @@ VkDeviceMemory allocate(const Host& host, const VkMemoryRequirements& needs,
 
 void makeImage(Host& host) {
   const VkDevice device = host.vulkan.device;
-  VkMemoryRequirements needs;
+  VkMemoryRequirements request;
   VkImageCreateInfo image{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
   image.imageType = VK_IMAGE_TYPE_2D;
   image.format = kFormat;
@@ -120,8 +117,8 @@ void makeImage(Host& host) {
   image.samples = VK_SAMPLE_COUNT_1_BIT;
   image.usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
   check(vkCreateImage(device, &image, nullptr, &host.image), "Making the image");
-  vkGetImageMemoryRequirements(device, host.image, &needs);
-  host.imageMemory = allocate(host, needs, 0);
+  vkGetImageMemoryRequirements(device, host.image, &request);
+  host.imageMemory = allocate(host, request, 0);
   check(vkBindImageMemory(device, host.image, host.imageMemory, 0), "Binding memory");
   VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, nullptr, 0, host.image};
   view.viewType = VK_IMAGE_VIEW_TYPE_2D;
@@ -131,14 +128,15 @@ void makeImage(Host& host) {
   VkBufferCreateInfo buffer{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, nullptr, 0,
                             kWidth * kHeight * 4 * sizeof(float), VK_BUFFER_USAGE_TRANSFER_DST_BIT};
   check(vkCreateBuffer(device, &buffer, nullptr, &host.buffer), "Making the buffer");
-  vkGetBufferMemoryRequirements(device, host.buffer, &needs);
+  vkGetBufferMemoryRequirements(device, host.buffer, &request);
   host.bufferMemory = allocate(
-      host, needs, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
+      host, request, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
   check(vkBindBufferMemory(device, host.buffer, host.bufferMemory, 0), "Binding memory");
 }
 
-// One frame: record, submit, wait. A game keeps several in flight and passes its own numbers.
+// One frame: record, submit, wait. A game keeps several in flight and states which have completed.
 void runFrame(Host& host, const std::function<void()>& record) {
+  check(ag::advanceFrame(host.context, host.frame + 1, host.frame), "Advancing the frame");
   check(vkResetCommandPool(host.vulkan.device, host.pool, 0), "Resetting the pool");
   VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO, nullptr, 0, nullptr};
   check(vkBeginCommandBuffer(host.commands, &begin), "Beginning to record");
@@ -148,7 +146,7 @@ void runFrame(Host& host, const std::function<void()>& record) {
       VK_STRUCTURE_TYPE_SUBMIT_INFO, nullptr, 0, nullptr, nullptr, 1, &host.commands};
   check(vkQueueSubmit(host.queue, 1, &submit, VK_NULL_HANDLE), "Submitting");
   check(vkQueueWaitIdle(host.queue), "Waiting");
-  host.frame.completed = host.frame.submitting++;
+  ++host.frame;
 }
 
 void transition(const Host& host, VkImageLayout from, VkImageLayout to) {
@@ -161,16 +159,17 @@ void transition(const Host& host, VkImageLayout from, VkImageLayout to) {
   vkCmdPipelineBarrier(host.commands, kAll, kAll, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
-void recordPicture(Host& host, ag::View* view, const ag::Tables* tables, const ag::SkyDraw& sky) {
+void recordPicture(Host& host, ag::View* view) {
   constexpr VkImageLayout kDraw = VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL;
   constexpr VkImageLayout kCopy = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
   VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO, nullptr, host.view,
                                   kDraw};
   VkRenderingInfo rendering{
-      VK_STRUCTURE_TYPE_RENDERING_INFO, nullptr, 0, sky.viewport, 1, 0, 1, &color};
+      VK_STRUCTURE_TYPE_RENDERING_INFO, nullptr, 0, {{}, {kWidth, kHeight}}, 1, 0, 1, &color};
+  check(ag::recordLuts(view, host.commands), "Updating the LUTs");
   transition(host, VK_IMAGE_LAYOUT_UNDEFINED, kDraw);
   vkCmdBeginRendering(host.commands, &rendering);
-  check(ag::recordSky(view, host.commands, tables, sky), "Drawing the sky");
+  check(ag::recordSky(view, host.commands), "Drawing the sky");
   vkCmdEndRendering(host.commands);
   transition(host, kDraw, kCopy);
   VkBufferImageCopy copy{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {kWidth, kHeight, 1}};
@@ -192,14 +191,13 @@ void writePicture(const Host& host, const std::string& path) {
 }
 
 void drawSky(Host& host, const std::string& path, bool small) {
-  ag::Context* context = nullptr;
-  check(ag::createContext(host.vulkan, &context), "Making the context");
+  check(ag::createContext(host.vulkan, &host.context), "Making the context");
   ag::Parameters earth;
   check(ag::findPreset("earth", &earth, host.vulkan.diagnostics), "Finding the Earth");
   ag::TableDesc desc;
   if (small) desc.orders = 2, desc.quality = ag::Quality::Draft;
   ag::Tables* tables = nullptr;
-  check(ag::createTables(context, earth, desc, &tables), "Making the tables");
+  check(ag::createTables(host.context, earth, desc, &tables), "Making the tables");
   for (ag::BakeProgress progress; !progress.done;) {
     runFrame(host, [&] {
       check(ag::recordBake(tables, host.commands, kSliceUnits, &progress), "Baking");
@@ -209,19 +207,18 @@ void drawSky(Host& host, const std::string& path, bool small) {
   ag::ViewDesc viewDesc;
   viewDesc.colorFormat = kFormat;
   ag::View* view = nullptr;
-  check(ag::createView(context, viewDesc, &view), "Making the view");
-  ag::SkyDraw sky;
-  sky.camera =
-      ag::cameraFromGeodetic(earth, 0.0, 0.0, 500.0, 90 * kDegree, 15 * kDegree, 0.0, 60 * kDegree);
-  ag::sunDirection(0.0, 0.0, 30 * kDegree, 140 * kDegree, sky.sun.direction);
-  sky.sun.irradiance = earth.solarIrradiance;
-  sky.viewport.extent = {kWidth, kHeight};
-  runFrame(host, [&] { recordPicture(host, view, tables, sky); });
+  check(ag::createView(host.context, tables, viewDesc, &view), "Making the view");
+  ag::FrameDesc frame;  // Its world is the planet frame; a game calls placeWorld.
+  ag::Camera& camera = frame.cameras[0];
+  camera = ag::cameraAt(earth, frame.world, 0.0, 0.0, 500.0, 90 * kDegree, 15 * kDegree, 0.0);
+  camera.viewport.extent = {kWidth, kHeight};
+  ag::directionAt(frame.world, 0.0, 0.0, 30 * kDegree, 140 * kDegree, frame.lights[0].direction);
+  runFrame(host, [&] {
+    check(ag::beginFrame(view, frame, nullptr), "Beginning the frame");
+    recordPicture(host, view);
+  });
   writePicture(host, path);
-
-  ag::destroyView(view);
-  ag::destroyTables(tables);
-  ag::destroyContext(context);
+  ag::destroyContext(host.context);  // With the view and the tables.
 }
 
 void destroy(const Host& host) {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "terrain/tables_info.h"
+#include "common/tables_info.h"
 
 namespace alpenglow::samples {
 namespace {

@@ -6,7 +6,7 @@ layout(push_constant) uniform StarView {
   vec4 downFocal;        // down the picture; pixels per radian at its centre
   vec4 forwardFisheye;   // where the camera looks; half the fisheye's circle in radians, 0: perspective
   vec4 up;               // the camera's vertical
-  vec4 irradiance;       // of the sun above the air, times radianceScale
+  vec4 irradiance;       // of the sun above the atmosphere, times radianceScale
   vec4 viewport;         // first pixel; width and height
 } view;
 

@@ -1,15 +1,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Translucent cloth at any depth: lit, then put behind its own part of the air, then blended over what has been
-// drawn with the air in front of that.
+// Translucent cloth at any depth: lit, then put behind its own part of the atmosphere, then blended over what
+// has been drawn with the aerial perspective in front of that.
 #ifdef ALPENGLOW_SOLVER_STANDARD
 layout(constant_id = 0) const bool kMiePacked = false;
 #define ALPENGLOW_MIE_PACKED kMiePacked
 #endif
 #include "alpenglow/atmosphere.glsl"
-#ifdef WITH_SHAFTS
-#define ALPENGLOW_SHAFT_SET 3
-#include "alpenglow/shafts.glsl"
+#ifdef WITH_LIGHT_SHAFTS
+#define ALPENGLOW_LIGHT_SHAFT_SET 3
+#include "alpenglow/light_shafts.glsl"
 #endif
 #include "scene_frame.glsl"
 #include "surface_light.glsl"
@@ -44,8 +44,8 @@ void main() {
   vec3 n = normalize(normal);
   float toSun = dot(n, frame.sun.xyz);
   float facing = toSun > 0.0 ? toSun : -0.4 * toSun;  // Cloth lets light through.
-#ifdef WITH_SHAFTS
-  bool mapped = int(alpenglowShaft.pixels.z) != kShaftPaper;
+#ifdef WITH_LIGHT_SHAFTS
+  bool mapped = int(alpenglowLightShaft.pixels.z) != kShadowVolume;
   if (mapped) facing *= alpenglowSunShare(position);
 #endif
   float seam = fract(0.5 * gore) < 0.5 ? 1.0 : 0.55;

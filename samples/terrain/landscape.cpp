@@ -1,5 +1,6 @@
 #include "landscape.h"
 
+#include <alpenglow/mesh/terrain.h>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -82,7 +83,7 @@ Landscape::Landscape(const Gpu* gpu, const io::Scene& scene, const TerrainMesh* 
                    VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT, 1);
     depthAttachment_ = attachmentOf(depth_, kDepthRead.layout);
     uploadTerrain(*scene.terrain, albedo);
-    if (desc.shafts.method != LightShaftMethod::Off) makeShafts();
+    if (desc.shafts.method != LightShaftMethod::Off) makeLightShafts();
   }
 }
 
@@ -98,7 +99,7 @@ void Landscape::follow(const View* view) {
   pipelines.balloons = hasBalloons();
   ViewInfo info;
   gpu_->check(viewInfo(view, &info));
-  pipelines.shaftLayout = info.setLayouts[kViewSetLightShafts];
+  pipelines.lightShaftLayout = info.setLayouts[kViewSetLightShafts];
   pipelines_.emplace(gpu_, pipelines);
 }
 
@@ -112,7 +113,7 @@ void Landscape::uploadTerrain(const io::SceneTerrain& terrain, const io::AlbedoM
     albedo_ = gpu_->texture(*albedo);
     return;
   }
-  float rgba[4] = {0.0f, 0.0f, 0.0f, 1.0f};  // One texel, so that one shader serves both.
+  float rgba[4] = {0.0f, 0.0f, 0.0f, 1.0f};  // One texel, so that one shader covers both.
   for (uint32_t i = 0; i < kSpectrumSize; ++i) rgba[i] = static_cast<float>(terrain.albedo[i]);
   albedo_ = gpu_->texel(rgba);
 }
@@ -123,7 +124,7 @@ void Landscape::uploadVertices() {
   ++castersVersion_;
 }
 
-void Landscape::makeShafts() {
+void Landscape::makeLightShafts() {
   LightShaftDesc& shafts = desc_.shafts;
   shafts.closed = true;
   shafts.adjacency = shafts.method == LightShaftMethod::ShadowVolume;
@@ -184,8 +185,7 @@ void Landscape::setDepthPlanes(Camera* out) const {
     const Camera at = cameraAt(parameters_, {}, balloon.latitude, balloon.longitude,
                                balloon.altitude_m, 0.0, 0.0, 0.0);
     double along = 2.0 * balloon.radius_m;
-    for (int i = 0; i < 3; ++i)
-      along += (at.position[i] - camera.position[i]) * camera.forward[i];
+    for (int i = 0; i < 3; ++i) along += (at.position[i] - camera.position[i]) * camera.forward[i];
     most = std::max(most, along);
   }
   out->nearPlane = 0.0;
@@ -210,7 +210,7 @@ const VkRenderingAttachmentInfo* Landscape::depthAttachment() const {
 
 void Landscape::recordFrame(VkCommandBuffer commands, const FrameDesc& draw,
                             VkDescriptorSet shafts) {
-  shaftSet_ = shafts;
+  lightShaftSet_ = shafts;
   const FrameBlock block = frameBlock(parameters_, projection_, draw);
   constexpr VkPipelineStageFlags2 kReaders =
       VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
@@ -267,7 +267,7 @@ void Landscape::recordDepth(VkCommandBuffer commands, const FrameDesc& draw) con
 void Landscape::recordTerrain(VkCommandBuffer commands, const Tables* tables,
                               const FrameDesc& draw) const {
   setPicture(commands, draw);
-  pipelines_->bindTerrain(commands, tables, shaftSet_);
+  pipelines_->bindTerrain(commands, tables, lightShaftSet_);
   placeTerrain(commands, draw);
   drawTerrain(commands, indices_, mesh_->indices.size());
 }
@@ -288,7 +288,7 @@ void Landscape::recordBalloons(VkCommandBuffer commands, const Tables* tables,
     return distance(a) > distance(b);  // What is blended first lies behind.
   });
   setPicture(commands, draw);
-  pipelines_->bindBalloons(commands, tables, shaftSet_);
+  pipelines_->bindBalloons(commands, tables, lightShaftSet_);
   for (const BalloonPush& push : pushes) {
     pipelines_->push(commands, &push, sizeof push);
     gpu_->function<PFN_vkCmdDraw>("vkCmdDraw")(commands, kBalloonVertices, 1, 0, 0);

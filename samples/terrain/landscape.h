@@ -26,11 +26,11 @@ namespace alpenglow::samples {
 struct LandscapeDesc {
   Context* context = nullptr;
   const Tables* tables = nullptr;  ///< On the same context as those that will be drawn with.
-  VkExtent2D size = {};  ///< Of the picture, in pixels.
+  VkExtent2D size = {};            ///< Of the picture, in pixels.
   VkFormat colorFormat = VK_FORMAT_UNDEFINED;
-  Solver solver = Solver::Moments;     ///< As the tables that will be drawn with.
-  MieStorage mie = MieStorage::Full;   ///< The same.
-  LightShaftDesc shafts;  ///< Method and steps; the rest is filled in.
+  Solver solver = Solver::Moments;    ///< As the tables that will be drawn with.
+  MieStorage mie = MieStorage::Full;  ///< The same.
+  LightShaftDesc shafts;              ///< Method and steps; the rest is filled in.
 };
 
 class Landscape {
@@ -59,8 +59,8 @@ class Landscape {
   /// Adds what a frame must know: depth planes for its camera, the scene's depth, the casters.
   void describe(FrameDesc* frame) const;
 
-  /// Outside rendering scopes, as the next; the other calls draw for the frame given here. `shafts`:
-  /// FrameWork::sets[kViewSetLightShafts].
+  /// Outside rendering scopes, as the next; the other calls draw for the frame given here.
+  /// `shafts`: FrameWork::sets[kViewSetLightShafts].
   void recordFrame(VkCommandBuffer commands, const FrameDesc& draw, VkDescriptorSet shafts);
   /// Leaves the depth image in kDepthRead.
   void recordDepth(VkCommandBuffer commands, const FrameDesc& draw) const;
@@ -72,7 +72,7 @@ class Landscape {
 
  private:
   void uploadTerrain(const io::SceneTerrain& terrain, const io::AlbedoMap* albedo);
-  void makeShafts();
+  void makeLightShafts();
   void setDepthPlanes(Camera* camera) const;
   void setPicture(VkCommandBuffer commands, const FrameDesc& draw) const;
   void placeTerrain(VkCommandBuffer commands, const FrameDesc& draw) const;
@@ -90,7 +90,7 @@ class Landscape {
   headless::HostBuffer adjacency_;  ///< Only for the paper's shadow volumes.
   size_t adjacencyCount_ = 0;
   LandscapeDesc desc_;
-  VkDescriptorSet shaftSet_ = VK_NULL_HANDLE;  ///< Of this frame.
+  VkDescriptorSet lightShaftSet_ = VK_NULL_HANDLE;  ///< Of this frame.
   uint64_t castersVersion_ = 1;
   std::optional<LandscapePipelines> pipelines_;  ///< Made once images and shafts are there.
 };

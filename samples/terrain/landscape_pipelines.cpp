@@ -1,5 +1,6 @@
 #include "landscape_pipelines.h"
 
+#include <alpenglow/mesh/terrain.h>
 #include <alpenglow/shaders/sample_balloon.h>
 #include <alpenglow/shaders/sample_balloon_hillaire.h>
 #include <alpenglow/shaders/sample_balloon_hoffman_preetham.h>
@@ -17,7 +18,7 @@
 #include <alpenglow/shaders/sample_terrain_standard.h>
 #include <alpenglow/shaders/sample_terrain_vertex.h>
 
-#include "tables_info.h"
+#include "common/tables_info.h"
 #include "terrain_mesh.h"
 
 namespace alpenglow::samples {
@@ -78,7 +79,7 @@ void write(const Gpu& gpu, VkDescriptorSet set, VkDescriptorType type,
 }
 
 /// A shader's text for each solver's tables.
-Code textOf(Solver solver, bool shafts, bool terrain) {
+Code codeOf(Solver solver, bool shafts, bool terrain) {
   namespace s = alpenglow::shaders;
   const auto pick = [&](Code ofTerrain, Code ofBalloon) { return terrain ? ofTerrain : ofBalloon; };
   switch (solver) {
@@ -102,7 +103,7 @@ Code textOf(Solver solver, bool shafts, bool terrain) {
 }  // namespace
 
 LandscapePipelines::LandscapePipelines(const Gpu* gpu, const LandscapePipelinesDesc& desc)
-    : gpu_(gpu), shaftLayout_(desc.shaftLayout) {
+    : gpu_(gpu), lightShaftLayout_(desc.lightShaftLayout) {
   makeSets(desc);
   makePipelines(desc);
 }
@@ -123,10 +124,10 @@ void LandscapePipelines::makeSets(const LandscapePipelinesDesc& desc) {
                                          kSampled.layout};
     write(*gpu_, albedoSet_, kAlbedoBinding.descriptorType, nullptr, &image);
   }
-  const VkDescriptorSetLayout sets[] = {
-      infoOf(desc.tables).setLayout, frameLayout_.get(), albedoLayout_.get(),
-      shaftLayout_};
-  layout_ = gpu_->pipelineLayout({sets, shaftLayout_ != VK_NULL_HANDLE ? size_t{4} : size_t{3}}, kPush);
+  const VkDescriptorSetLayout sets[] = {infoOf(desc.tables).setLayout, frameLayout_.get(),
+                                        albedoLayout_.get(), lightShaftLayout_};
+  layout_ = gpu_->pipelineLayout(
+      {sets, lightShaftLayout_ != VK_NULL_HANDLE ? size_t{4} : size_t{3}}, kPush);
 }
 
 void LandscapePipelines::makePipelines(const LandscapePipelinesDesc& desc) {
@@ -143,7 +144,7 @@ void LandscapePipelines::makePipelines(const LandscapePipelinesDesc& desc) {
     depth_ = gpu_->pipeline(pipeline);
     pipeline.writesDepth = false;
     pipeline.color = desc.colorFormat;
-    pipeline.fragment = textOf(desc.solver, shaftLayout_ != VK_NULL_HANDLE, true);
+    pipeline.fragment = codeOf(desc.solver, lightShaftLayout_ != VK_NULL_HANDLE, true);
     terrain_ = gpu_->pipeline(pipeline);
   }
   if (!desc.balloons) return;
@@ -152,7 +153,7 @@ void LandscapePipelines::makePipelines(const LandscapePipelinesDesc& desc) {
   pipeline.attributes = {};
   pipeline.color = desc.colorFormat;
   pipeline.blending = Blending::Alpha;
-  pipeline.fragment = textOf(desc.solver, shaftLayout_ != VK_NULL_HANDLE, false);
+  pipeline.fragment = codeOf(desc.solver, lightShaftLayout_ != VK_NULL_HANDLE, false);
   const VkBool32 packed = desc.mie == MieStorage::Packed;
   const VkSpecializationMapEntry entry = {0, 0, sizeof packed};
   const VkSpecializationInfo constants = {1, &entry, sizeof packed, &packed};
@@ -185,7 +186,7 @@ void LandscapePipelines::bindTerrain(VkCommandBuffer commands, const Tables* tab
 }
 
 void LandscapePipelines::bindBalloons(VkCommandBuffer commands, const Tables* tables,
-                                     VkDescriptorSet shafts) const {
+                                      VkDescriptorSet shafts) const {
   bind(commands, balloon_.get(), tables, shafts);
 }
 

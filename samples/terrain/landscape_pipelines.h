@@ -25,7 +25,8 @@ struct LandscapePipelinesDesc {
   MieStorage mie = MieStorage::Full;               ///< The same.
   const headless::Image* terrainAlbedo = nullptr;  ///< Null: there is no terrain, and no depth.
   bool balloons = false;
-  VkDescriptorSetLayout shaftLayout = VK_NULL_HANDLE;  ///< Of the view's light shafts; null: none.
+  VkDescriptorSetLayout lightShaftLayout =
+      VK_NULL_HANDLE;  ///< Of the view's light shafts; null: none.
 };
 
 class LandscapePipelines {
@@ -53,7 +54,7 @@ class LandscapePipelines {
             VkDescriptorSet shafts) const;
 
   const Gpu* gpu_;
-  VkDescriptorSetLayout shaftLayout_;
+  VkDescriptorSetLayout lightShaftLayout_;
   headless::HostBuffer frame_;
   Owned<VkSampler> sampler_;
   Owned<VkDescriptorSetLayout> frameLayout_, albedoLayout_;

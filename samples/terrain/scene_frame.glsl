@@ -6,7 +6,7 @@ layout(set = 1, binding = 0, std140) uniform SceneFrame {
   vec4 upAltitude;       // the camera's vertical; altitude in metres
   vec4 forwardParallel;  // where it looks; 1: orthographic
   vec4 sun;              // towards it
-  vec4 irradiance;       // of the sun above the air, times radianceScale
+  vec4 irradiance;       // of the sun above the atmosphere, times radianceScale
 } frame;
 
 const float kPi = 3.14159265;

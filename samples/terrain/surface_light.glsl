@@ -1,5 +1,5 @@
-// Light that falls on a small surface of a host's scene. Needs alpenglow/atmosphere.glsl and scene_frame.glsl;
-// per unit solar irradiance.
+// Light that falls on a small surface of a host's scene. PlanRequest alpenglow/atmosphere.glsl and
+// scene_frame.glsl; per unit solar irradiance.
 
 // The vertical and the altitude of a point, from the camera's: altitudes are never a difference of radii.
 void atPoint(vec3 position, out vec3 up, out float altitude) {

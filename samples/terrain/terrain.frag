@@ -1,11 +1,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Terrain as a host shades it: a Lambertian surface in sunlight and sky light, linear radiance, without the air
-// in front of it, which recordAir draws over it.
+// Terrain as a host shades it: a Lambertian surface in sunlight and sky light, linear radiance, without the
+// aerial perspective in front of it, which recordAerialPerspective draws over it.
 #include "alpenglow/atmosphere.glsl"
-#ifdef WITH_SHAFTS
-#define ALPENGLOW_SHAFT_SET 3
-#include "alpenglow/shafts.glsl"
+#ifdef WITH_LIGHT_SHAFTS
+#define ALPENGLOW_LIGHT_SHAFT_SET 3
+#include "alpenglow/light_shafts.glsl"
 #endif
 #include "scene_frame.glsl"
 #include "surface_light.glsl"
@@ -23,7 +23,7 @@ void main() {
   atPoint(position, up, altitude);
   vec3 n = normalize(normal);
   float facing = max(dot(n, frame.sun.xyz), 0.0);
-#ifdef WITH_SHAFTS
+#ifdef WITH_LIGHT_SHAFTS
   facing *= alpenglowSunlit(gl_FragCoord, position, n);
 #endif
   Spectrum albedo = texture(albedoMap, uv).rgb;

@@ -1,6 +1,7 @@
 #include "terrain_mesh.h"
 
 #include <alpenglow/io/height_field.h>
+#include <alpenglow/mesh/terrain.h>
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <alpenglow/io/scene_file.h>
-#include <alpenglow/terrain.h>
+#include <alpenglow/mesh/terrain.h>
 
 #include <vector>
 

@@ -66,9 +66,9 @@ Host::Host(const AppOptions& options, Window* window) {
                             VkPhysicalDevice physical, Requirements* out, std::string* missing) {
     // As much as the device has.
     for (const CapabilityFlags wish :
-         {kCapabilityAir | kCapabilityShafts | kCapabilityShadowVolumes,
-          kCapabilityAir | kCapabilityShafts, CapabilityFlags{kCapabilityAir},
-          CapabilityFlags{0}}) {
+         {kCapabilityAerialPerspective | kCapabilityLightShafts | kCapabilityShadowVolumes,
+          kCapabilityAerialPerspective | kCapabilityLightShafts,
+          CapabilityFlags{kCapabilityAerialPerspective}, CapabilityFlags{0}}) {
       capabilities = kNeeded | wish;
       ContextDesc desc;
       desc.instance = instance;
@@ -138,7 +138,7 @@ size_t App::run() {
   };
   while (!quits()) {
     // Nothing moves: don't keep a processor busy.
-    const bool idle = settled() && !script_ && !(options_.walk && state_.playing);
+    const bool idle = settled() && !script_ && !(options_.flythrough && state_.playing);
     window_.poll(idle ? 0.1 : 0.0);
     if (script_) {
       script_->step(&state_, {[this] { return settled(); },
@@ -147,9 +147,9 @@ size_t App::run() {
                                                   static_cast<int>(height));
                               },
                               [this](double seconds) {
-                                walkSeconds_ = seconds;
+                                flythroughSeconds_ = seconds;
                                 state_.playing = false;
-                                return options_.walk.has_value();
+                                return options_.flythrough.has_value();
                               },
                               [this](const std::string& path) { report(path); }});
       if (script_->finished()) script_.reset();
@@ -166,7 +166,7 @@ void App::frame() {
   lastFrame_ = now;
   control(&state_, &window_, options_.config.bindings, seconds, !Interface::wantsKeyboard(),
           !Interface::wantsMouse());
-  followWalk(seconds);
+  followFlythrough(seconds);
   Frame frame;
   if (!host_.presenter->begin(&frame)) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -198,17 +198,17 @@ void App::frame() {
   if (!state_.screenshot.empty() && resting_) saveScreenshot();
 }
 
-void App::followWalk(double seconds) {
-  if (!options_.walk) return;
-  const io::Walk& walk = *options_.walk;
-  if (state_.playing) walkSeconds_ += seconds;
-  const double end = walk.keys.back().time_s;
-  if (walkSeconds_ > end) {
-    walkSeconds_ = end;
+void App::followFlythrough(double seconds) {
+  if (!options_.flythrough) return;
+  const io::Flythrough& flythrough = *options_.flythrough;
+  if (state_.playing) flythroughSeconds_ += seconds;
+  const double end = flythrough.keys.back().time_s;
+  if (flythroughSeconds_ > end) {
+    flythroughSeconds_ = end;
     state_.playing = false;
   }
-  caption_ = io::keyAt(walk, walkSeconds_).caption;
-  const io::Scene there = io::sceneAt(walk, walkSeconds_);
+  caption_ = io::keyAt(flythrough, flythroughSeconds_).caption;
+  const io::Scene there = io::sceneAt(flythrough, flythroughSeconds_);
   state_.scene.atmosphere = there.atmosphere;
   state_.scene.camera = there.camera;
   state_.scene.sun = there.sun;
@@ -216,7 +216,7 @@ void App::followWalk(double seconds) {
   state_.scene.stars = there.stars;
 }
 
-// Plans and bakes anew where the scene asks for other tables. Camera and sun may go anywhere, so
+// Plans and rebakes where the scene asks for other tables. Camera and sun may go anywhere, so
 // they don't count.
 void App::followScene() {
   const io::Scene& scene = state_.scene;

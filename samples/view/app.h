@@ -1,7 +1,7 @@
 // The program: a window, a device, a context, and the loop around them.
 #pragma once
 
-#include <alpenglow/io/walk_file.h>
+#include <alpenglow/io/flythrough_file.h>
 
 #include <chrono>
 #include <memory>
@@ -20,7 +20,7 @@ namespace alpenglow::view {
 
 struct AppOptions {
   io::Scene scene;
-  std::optional<io::Walk> walk;
+  std::optional<io::Flythrough> flythrough;
   Config config;
   std::string device;   ///< As --device.
   std::string script;   ///< Empty: none.
@@ -56,7 +56,7 @@ class App {
  private:
   using Clock = std::chrono::steady_clock;
   void frame();
-  void followWalk(double seconds);
+  void followFlythrough(double seconds);
   void followScene();
   void followShaders();
   void takeBake();
@@ -87,7 +87,7 @@ class App {
   io::Scene planned_;     ///< The scene that the last plan was made for.
   io::Scene shownScene_;  ///< The one that the stage was prepared for.
   bool hasPlan_ = false;
-  double walkSeconds_ = 0.0;
+  double flythroughSeconds_ = 0.0;
   std::string caption_;
   double exposure_ = 0.0, wantedExposure_ = 0.0;  ///< Shown now, and soon; 0: not known yet.
 
@@ -99,7 +99,7 @@ class App {
     const Tables* tables = nullptr;
     double siderealHours = 0.0;  ///< -1 without stars.
     bool operator==(const Shown& other) const {
-      return samples::same(draw, other.draw) && tables == other.tables &&
+      return samples::samePicture(draw, other.draw) && tables == other.tables &&
              siderealHours == other.siderealHours;
     }
   };

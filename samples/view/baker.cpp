@@ -10,7 +10,7 @@ namespace {
 constexpr double kFirstUnitsPerSecond = 1e8;
 constexpr int kMostPieces = 24;  // In a frame.
 
-// Whether tables of one description serve where the other is wanted, but for the quality.
+// Whether tables of one description can be used where the other is wanted, but for the quality.
 bool sameTables(const TableDesc& a, const TableDesc& b) {
   return a.solver == b.solver && a.orders == b.orders && a.disabledEffects == b.disabledEffects &&
          a.sunZenithFrom == b.sunZenithFrom && a.sunZenithTo == b.sunZenithTo &&
@@ -109,8 +109,8 @@ void Baker::record(const Frame& frame, PassTimer* timer, double seconds) {
     const Kind before = {baking_->desc.quality, progress_.passFinished ? "" : progress_.pass};
     const double budget = std::max(seconds * unitsPerSecond(before), 1.0);
     timer->time(frame, "bake", [&] {
-      gpu_->check(recordBake(baking_->tables.get(), frame.commands,
-                             static_cast<uint64_t>(budget), &progress_));
+      gpu_->check(recordBake(baking_->tables.get(), frame.commands, static_cast<uint64_t>(budget),
+                             &progress_));
     });
     const Kind kind = {baking_->desc.quality, progress_.pass};
     pieces_[frame.slot].emplace_back(kind, progress_.unitsRecorded);

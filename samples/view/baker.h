@@ -29,7 +29,7 @@ class Baker {
   /// refuses; then all is as it was.
   bool want(const Parameters& parameters, const Plan& plan);
 
-  /// Bakes what is wanted anew: shaders have changed. Throws as want().
+  /// Bakes what is wanted again: shaders have changed. Throws as want().
   void again();
   /// Wants what this one is, or would be in full, and nothing else.
   void keep(const Air& air);

@@ -65,9 +65,9 @@ void turnSun(io::Scene* scene, double up, double right) {
   if (scene->sun.azimuth < 0.0) scene->sun.azimuth += 360 * kDegree;
 }
 
-// A change of the air; one that isn't valid is left out, with the reason.
+// A change of the atmosphere; one that isn't valid is left out, with the reason.
 template <typename Change>
-void changeAir(State* state, const Change& change) {
+void changeMedium(State* state, const Change& change) {
   const Parameters before = state->scene.atmosphere;
   change(&state->scene.atmosphere);
   const std::string why = whyInvalid(state->scene);
@@ -102,7 +102,7 @@ std::vector<Binding> defaultBindings() {
           {Action::Panel, "panel", "show or hide the panel", GLFW_KEY_TAB},
           {Action::Screenshot, "screenshot", "save a PNG (with shift: the linear EXR)",
            GLFW_KEY_PERIOD},
-          {Action::Play, "play", "play or halt a walk", GLFW_KEY_SPACE},
+          {Action::Play, "play", "play or halt a flythrough", GLFW_KEY_SPACE},
           {Action::Reset, "reset", "back to the start", GLFW_KEY_R},
           {Action::Quit, "quit", "quit", GLFW_KEY_ESCAPE}};
 }
@@ -124,7 +124,7 @@ void press(State* state, Action action, bool shift) {
   const double angle = (shift ? 5.0 : 0.5) * kDegree;
   const double more = shift ? 1.25 : 1.05;
   const double g = shift ? 0.05 : 0.01;
-  const auto air = [state](const auto& change) { changeAir(state, change); };
+  const auto air = [state](const auto& change) { changeMedium(state, change); };
   switch (action) {
     case Action::SunUp:
       return turnSun(scene, angle, 0.0);

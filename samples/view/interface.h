@@ -26,7 +26,7 @@ class Interface {
   static VkCommandBuffer recording();
 
  private:
-  /// Glyphs are made anew for a scale, so that text is sharp; so is what draws them.
+  /// Glyphs are rebuilt for a scale, so that text is sharp; so is what draws them.
   void setScale(float scale);
   void startDrawing();
   void handOnKeys();

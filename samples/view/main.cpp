@@ -13,7 +13,7 @@ namespace alpenglow::view {
 namespace {
 
 struct Arguments {
-  std::string scene, walk, config, size;
+  std::string scene, flythrough, config, size;
   AppOptions options;
 };
 
@@ -25,7 +25,9 @@ void addOptions(CLI::App* app, Arguments* arguments) {
   app->set_version_flag("--version", ALPENGLOW_VERSION_STRING);
   app->add_option("SCENE", arguments->scene,
                   "A scene file or a sample scene's name; clear_noon if none is given");
-  app->add_option("--walk", arguments->walk, "Play a walk: a file or a sample walk's name");
+  app->add_option("--walk", arguments->flythrough)->group("");  // The former name.
+  app->add_option("--flythrough", arguments->flythrough,
+                  "Play a flythrough: a file or a sample flythrough's name");
   app->add_option("--size", arguments->size, "WxH: the window's size");
   app->add_option("--config", arguments->config,
                   "Keys and window settings: JSON with comments; instead of the user's view.json");
@@ -56,17 +58,18 @@ void parseSize(const std::string& text, Config* config) {
 
 AppOptions optionsOf(const Arguments& arguments) {
   AppOptions options = arguments.options;
-  if (!arguments.walk.empty() && !arguments.scene.empty()) {
-    throw samples::Failure("The scene '" + arguments.scene + "' and the walk '" + arguments.walk +
-                               "' were given; one of them was expected.",
+  if (!arguments.flythrough.empty() && !arguments.scene.empty()) {
+    throw samples::Failure("The scene '" + arguments.scene + "' and the flythrough '" +
+                               arguments.flythrough + "' were given; one of them was expected.",
                            samples::Failure::kUsage);
   }
   const std::string config = arguments.config.empty() ? usualConfig() : arguments.config;
   if (!config.empty()) options.config = readConfig(config);
   if (!arguments.size.empty()) parseSize(arguments.size, &options.config);
-  if (!arguments.walk.empty()) {
-    options.walk = samples::take(io::readWalk(samples::findSample("walks", arguments.walk)));
-    options.scene = options.walk->keys.front().scene;
+  if (!arguments.flythrough.empty()) {
+    options.flythrough =
+        samples::take(io::readFlythrough(samples::findSample("flythroughs", arguments.flythrough)));
+    options.scene = options.flythrough->keys.front().scene;
   } else {
     const std::string scene = arguments.scene.empty() ? "clear_noon" : arguments.scene;
     options.scene = samples::take(io::readScene(samples::findSample("scenes", scene)));

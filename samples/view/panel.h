@@ -23,7 +23,7 @@ struct PanelFacts {
   float frame_ms = 0.0f, scale = 1.0f;
   VkExtent2D drawn = {};
   bool resting = false;  ///< Nothing moves, so nothing is drawn.
-  std::string caption;   ///< Of a walk.
+  std::string caption;   ///< Of a flythrough.
   std::string trouble;   ///< What can't be drawn or compiled, and why.
 };
 

@@ -31,8 +31,8 @@ const Parameter* findParameter(const std::string& name);
 /// Empty where the scene can be simulated and drawn, else a sentence.
 std::string whyInvalid(const io::Scene& scene);
 
-/// Total over molecular optical depth of the air above the ground, in the middle channel (Preetham
-/// et al. 1999); 1: no aerosols.
+/// Total over molecular optical depth of the atmosphere above the ground, in the middle channel
+/// (Preetham et al. 1999); 1: no aerosols.
 double turbidity(const Parameters& parameters);
 void setTurbidity(Parameters* parameters, double turbidity);
 /// Multiplies scattering and extinction of molecules or aerosols.

@@ -215,7 +215,7 @@ bool Script::run(const Step& step, State* state, const ScriptHost& host) {
     state->scene.exposure.reset();
     if (step.words[1] != "auto") state->scene.exposure = step.number(1);
   } else if (what == "seek") {
-    if (!host.seek(step.number(1))) refuse(step, "there is no walk to seek in.");
+    if (!host.seek(step.number(1))) refuse(step, "there is no flythrough to seek in.");
   } else if (what == "show") {
     state->sections.assign(step.words.begin() + 1, step.words.end());
   } else if (what == "save") {

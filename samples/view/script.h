@@ -11,7 +11,7 @@
 //   set NAME VALUE       a parameter, such as mie.asymmetry, sun.elevation_deg or turbidity
 //   choose NAME VALUE    a choice, such as solver standard or effects.mie off
 //   exposure VALUE|auto
-//   seek SECONDS         a walk, which then halts
+//   seek SECONDS         a flythrough, which then halts
 //   random N SEED        change a random parameter in each of N frames
 //   show SECTION...      opens these sections of the panel, such as Air, and closes the others
 //   save FILE            .png or .exr, as the keys do
@@ -33,7 +33,7 @@ namespace alpenglow::view {
 struct ScriptHost {
   std::function<bool()> settled;
   std::function<void(uint32_t width, uint32_t height)> resize;
-  std::function<bool(double seconds)> seek;  ///< False without a walk.
+  std::function<bool(double seconds)> seek;  ///< False without a flythrough.
   std::function<void(const std::string& path)> report;
 };
 

@@ -23,7 +23,7 @@ class ShaderFolder {
   ShaderHook hook();
 
   /// Looks for changes from time to time. True once when what has changed was compiled: pipelines
-  /// are to be made anew. Until then, and when it doesn't compile, the code stays as it was.
+  /// are to be rebuilt. Until then, and when it doesn't compile, the code stays as it was.
   bool poll();
   /// Takes the last change back: the library has refused it.
   void undo() { code_ = before_; }

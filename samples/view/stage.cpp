@@ -9,13 +9,13 @@
 namespace alpenglow::view {
 namespace {
 
-LightShaftDesc shaftsOf(io::SceneShafts method, uint32_t stepCount) {
+LightShaftDesc lightShaftsOf(io::SceneLightShafts method, uint32_t stepCount) {
   LightShaftDesc desc;
-  if (method == io::SceneShafts::Off) return desc;
-  desc.method = method == io::SceneShafts::Paper   ? LightShaftMethod::ShadowVolume
-                : method == io::SceneShafts::March ? LightShaftMethod::RayMarch
-                                                   : LightShaftMethod::LightVolume;
-  if (method == io::SceneShafts::March) desc.stepCount = stepCount;
+  if (method == io::SceneLightShafts::Off) return desc;
+  desc.method = method == io::SceneLightShafts::ShadowVolume ? LightShaftMethod::ShadowVolume
+                : method == io::SceneLightShafts::RayMarch   ? LightShaftMethod::RayMarch
+                                                             : LightShaftMethod::LightVolume;
+  if (method == io::SceneLightShafts::RayMarch) desc.stepCount = stepCount;
   return desc;
 }
 
@@ -60,7 +60,7 @@ void Stage::load(const io::Scene& scene) {
 Stage::Key Stage::keyOf(const io::Scene& scene, const Air& air) const {
   const ViewDesc& view = air.plan.view;
   const bool shafts = view.lightShafts.method != LightShaftMethod::Off && mesh_ &&
-                      scene.shafts != io::SceneShafts::Off;
+                      scene.shafts != io::SceneLightShafts::Off;
   return {air.plan.tables.solver,
           air.plan.tables.mie,
           view.disabledEffects,
@@ -68,8 +68,8 @@ Stage::Key Stage::keyOf(const io::Scene& scene, const Air& air) const {
           view.aerialPerspective != AerialPerspective::Off && mesh_.has_value(),
           air.plan.tables.quality,
           samples::projectionOf(scene.camera),
-          shafts ? scene.shafts : io::SceneShafts::Off,
-          scene.shaftSamples};
+          shafts ? scene.shafts : io::SceneLightShafts::Off,
+          scene.lightShaftStepCount};
 }
 
 void Stage::makeLandscape(const io::Scene& scene, const Key& key, const Air& air) {
@@ -80,7 +80,7 @@ void Stage::makeLandscape(const io::Scene& scene, const Key& key, const Air& air
   desc.colorFormat = kRadianceFormat;
   desc.solver = key.solver;
   desc.mie = key.mie;
-  desc.shafts = shaftsOf(key.shafts, key.shaftSamples);
+  desc.shafts = lightShaftsOf(key.shafts, key.lightShaftStepCount);
   landscape_.emplace(gpu_, scene, mesh_ ? &*mesh_ : nullptr,
                      terrainAlbedo_ ? &*terrainAlbedo_ : nullptr, desc);
 }
@@ -141,7 +141,7 @@ bool Stage::done(Status status) {
 
 void Stage::recordShadows(const Frame& frame, PassTimer* timer) {
   if ((work_.record & kRecordShadowMap) != 0) {
-    timer->time(frame, "sun map", [&] { done(recordShadowMap(view_, frame.commands)); });
+    timer->time(frame, "shadow map", [&] { done(recordShadowMap(view_, frame.commands)); });
   }
   timer->time(frame, "shafts", [&] { done(recordLightShafts(view_, frame.commands)); });
 }
@@ -153,8 +153,7 @@ void Stage::recordScope(const Frame& frame, const io::Scene& scene, const Air& a
   if (mesh_) {
     timer->time(frame, "terrain", [&] { landscape_->recordTerrain(frame.commands, tables, draw); });
     if (key_->air) {
-      timer->time(frame, "air",
-                  [&] { done(recordAerialPerspective(view_, frame.commands)); });
+      timer->time(frame, "air", [&] { done(recordAerialPerspective(view_, frame.commands)); });
     }
   }
   timer->time(frame, "sky", [&] { done(recordSky(view_, frame.commands)); });
@@ -177,16 +176,15 @@ void Stage::record(const Frame& frame, const io::Scene& scene, const Air& air, F
   if (landscape_) landscape_->describe(&draw);
   done(beginFrame(view_, draw, &work_));
   if ((work_.record & kRecordLuts) != 0)
-    timer->time(frame, "sky slice", [&] { done(recordLuts(view_, frame.commands)); });
-  if (landscape_)
-    landscape_->recordFrame(frame.commands, draw, work_.sets[kViewSetLightShafts]);
+    timer->time(frame, "sky-view LUT", [&] { done(recordLuts(view_, frame.commands)); });
+  if (landscape_) landscape_->recordFrame(frame.commands, draw, work_.sets[kViewSetLightShafts]);
   if (mesh_) {
     timer->time(frame, "terrain depth", [&] { landscape_->recordDepth(frame.commands, draw); });
     if ((work_.record & kRecordLightShafts) != 0) recordShadows(frame, timer);
   }
   picture.beginDrawing(frame.commands);
-  gpu_->render(frame.commands, picture.target(), draw.cameras[0].viewport, VK_ATTACHMENT_LOAD_OP_CLEAR,
-               landscape_ ? landscape_->depthAttachment() : nullptr,
+  gpu_->render(frame.commands, picture.target(), draw.cameras[0].viewport,
+               VK_ATTACHMENT_LOAD_OP_CLEAR, landscape_ ? landscape_->depthAttachment() : nullptr,
                [&] { recordScope(frame, scene, air, draw, timer); });
   picture.endDrawing(frame.commands);
 }

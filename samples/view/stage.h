@@ -28,7 +28,7 @@ class Stage {
   /// Makes the pipelines for these tables, unless there are: they follow solver, effects, quality
   /// and shaft method, and no parameter. Waits for the device where it must. Throws.
   void prepare(const io::Scene& scene, const Air& air);
-  /// Makes all pipelines anew at the next prepare(): shaders have changed.
+  /// Recreates all pipelines at the next prepare(): shaders have changed.
   void forget() { key_.reset(); }
 
   /// Draws into the picture's target. Outside rendering scopes. What the library refuses is left
@@ -44,20 +44,20 @@ class Stage {
   struct Key {
     Solver solver;
     MieStorage mie;
-    EffectFlags without;
-    bool sliced, air;
+    EffectFlags disabledEffects;
+    bool fromLut, air;
     Quality quality;
     Projection projection;
-    io::SceneShafts shafts;
-    uint32_t shaftSamples;
+    io::SceneLightShafts shafts;
+    uint32_t lightShaftStepCount;
     bool operator==(const Key&) const = default;
   };
   Key keyOf(const io::Scene& scene, const Air& air) const;
   void makeLandscape(const io::Scene& scene, const Key& key, const Air& air);
   void makeView(const Key& key, const Air& air);
   void recordShadows(const Frame& frame, PassTimer* timer);
-  void recordScope(const Frame& frame, const io::Scene& scene, const Air& air, const FrameDesc& draw,
-                   PassTimer* timer);
+  void recordScope(const Frame& frame, const io::Scene& scene, const Air& air,
+                   const FrameDesc& draw, PassTimer* timer);
   /// Whether the library did it.
   bool done(Status status);
   void destroyAll();

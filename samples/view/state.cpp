@@ -1,5 +1,7 @@
 #include "state.h"
 
+#include <alpenglow/camera.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -41,10 +43,10 @@ double cameraSpeed(const io::Scene& scene) {
 void moveCamera(io::Scene* scene, const double metres[3]) {
   io::SceneCamera& c = scene->camera;
   const double radius_m = scene->atmosphere.bottomRadius_m;
-  const Camera camera = cameraFromGeodetic(scene->atmosphere, c.latitude, c.longitude, c.altitude_m,
-                                           c.heading, c.pitch, 0.0, 1.0);
+  const Camera camera = cameraAt(scene->atmosphere, {}, c.latitude, c.longitude, c.altitude_m,
+                                 c.heading, c.pitch, 0.0);
   double sun[3];
-  sunDirection(c.latitude, c.longitude, scene->sun.elevation, scene->sun.azimuth, sun);
+  directionAt({}, c.latitude, c.longitude, scene->sun.elevation, scene->sun.azimuth, sun);
   const double* f = camera.forward;
   const double* u = camera.up;
   const double right[3] = {f[1] * u[2] - f[2] * u[1], f[2] * u[0] - f[0] * u[2],
@@ -78,13 +80,13 @@ void setTimeOfDay(io::Scene* scene, double hours, double declination) {
 
 double timeOfDay(const io::Scene& scene) {
   double d[3];
-  sunDirection(scene.camera.latitude, 0.0, scene.sun.elevation, scene.sun.azimuth, d);
+  directionAt({}, scene.camera.latitude, 0.0, scene.sun.elevation, scene.sun.azimuth, d);
   return wrapped(std::atan2(-d[1], d[0]) + pi) * (12.0 / pi);
 }
 
 double declination(const io::Scene& scene) {
   double d[3];
-  sunDirection(scene.camera.latitude, 0.0, scene.sun.elevation, scene.sun.azimuth, d);
+  directionAt({}, scene.camera.latitude, 0.0, scene.sun.elevation, scene.sun.azimuth, d);
   return std::asin(std::clamp(d[2], -1.0, 1.0));
 }
 

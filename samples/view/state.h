@@ -1,4 +1,4 @@
-// What controls, panel, script and walk change, and the frame loop looks at.
+// What controls, panel, script and flythrough change, and the frame loop looks at.
 #pragma once
 
 #include <alpenglow/io/scene_file.h>
@@ -15,7 +15,7 @@ struct State {
   float balance[3] = {1.0f, 1.0f, 1.0f};  ///< Of the display's colours.
   bool panel = true, help = false;
   bool quit = false;
-  bool playing = true;  ///< Of a walk.
+  bool playing = true;  ///< Of a flythrough.
   /// What to save at the end of the frame; empty: nothing. ".exr" or ".png".
   std::string screenshot;
   /// Sections of the panel, by their first words, that are to be open, all others closed; empty: as

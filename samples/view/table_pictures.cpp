@@ -13,7 +13,7 @@
 
 #include "interface.h"
 #include "picture.h"
-#include "terrain/tables_info.h"
+#include "common/tables_info.h"
 #include "widgets.h"
 
 namespace alpenglow::view {
@@ -33,17 +33,19 @@ TablePictures::TablePictures(const samples::Gpu* gpu, VkRenderPass renderPass)
 
 std::vector<TablePictures::Shown> TablePictures::tablesOf(const TableDesc& desc) {
   std::vector<Shown> all;
-  const auto without = [&](Effect effect) { return !hasEffect(desc.disabledEffects, effect); };
+  const auto disabledEffects = [&](Effect effect) {
+    return !hasEffect(desc.disabledEffects, effect);
+  };
   switch (desc.solver) {
     case Solver::Moments:
       all.push_back({"optical depth", "mu, r", 1, false, {0.0f, 16.0f, false}});
-      if (without(Effect::MultipleScattering)) break;
+      if (disabledEffects(Effect::MultipleScattering)) break;
       all.push_back({"moments",
                      "mu_s, r; five below each other, logarithms",
                      2,
                      false,
                      {-12.0f, 2.0f, false}});
-      if (!without(Effect::Mie))
+      if (!disabledEffects(Effect::Mie))
         all.push_back({"source", "gamma and psi, mu_s; r", 3, true, {0.0f, 2.0f, false}});
       break;
     case Solver::Standard:
@@ -93,8 +95,8 @@ void TablePictures::make(const Tables* tables, const TableDesc& desc) {
   }
   const TablesInfo info = samples::infoOf(tables);
   if (layout_.get() == VK_NULL_HANDLE) {
-    layout_ = gpu_->pipelineLayout({&info.setLayout, 1},
-                                   {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(Push)});
+    layout_ =
+        gpu_->pipelineLayout({&info.setLayout, 1}, {VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(Push)});
   }
   chosen_ = std::min(chosen_, all.size() - 1);
   list(

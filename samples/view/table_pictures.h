@@ -35,7 +35,7 @@ class TablePictures {
     const char* axes;
     uint32_t binding;
     bool volume;
-    Look look;  ///< That shows most of it, of an air like the Earth's.
+    Look look;  ///< That shows most of it, of an atmosphere like the Earth's.
   };
   static std::vector<Shown> tablesOf(const TableDesc& desc);
   VkPipeline pipelineFor(const Shown& shown);

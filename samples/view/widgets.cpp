@@ -48,7 +48,7 @@ std::string labelOf(const Parameter& parameter) {
 const char* meaningOf(const Parameter& parameter) {
   static const std::map<std::string, const char*> kMeanings = {
       {"bottom_radius_m", "Of the ground."},
-      {"top_radius_m", "Of the air's top; above is empty space."},
+      {"top_radius_m", "Of the atmosphere's top; above is empty space."},
       {"rayleigh.scattering_per_m", "Of light by molecules, at the ground."},
       {"rayleigh.scale_height_m", "Over which the molecules' density falls to 1/e."},
       {"mie.scattering_per_m", "Of light by aerosols, at the ground."},
@@ -59,7 +59,7 @@ const char* meaningOf(const Parameter& parameter) {
       {"absorption.center_m", "Altitude where the layer is densest."},
       {"absorption.half_width_m", "From there to where it ends, up and down."},
       {"ground_albedo", "Share of light that the ground throws back."},
-      {"solar_irradiance", "Of the sun at the top of the air."},
+      {"solar_irradiance", "Of the sun at the top of the atmosphere."},
       {"sun_angular_radius_deg", "As the tables have it: their shadow's edges."},
       {"sun.disc_radius_deg", "Of the disc that is drawn."},
       {"camera.fov_deg", "Of the picture's height."},

@@ -27,8 +27,8 @@ std::optional<double> edited(State* state, const std::string& label, const std::
                              double value, const double range[2], const char* format,
                              bool logarithmic = false);
 
-/// Sliders over all parameters of the air, or all others, under their groups' names. A value that
-/// isn't allowed is left out, and State::message has the reason.
+/// Sliders over all parameters of the atmosphere, or all others, under their groups' names. A value
+/// that isn't allowed is left out, and State::message has the reason.
 void sliders(State* state, bool ofAir);
 
 }  // namespace alpenglow::view

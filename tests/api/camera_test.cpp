@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/model/heard.h"
+#include "tests/parameters/heard.h"
 
 namespace alpenglow {
 namespace {
@@ -14,9 +14,7 @@ constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
 Parameters earth() { return testing::allPresets()[0].parameters; }
 
-double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
+double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 constexpr WorldAxes kLocalAxes[] = {WorldAxes::ZUp, WorldAxes::YUp, WorldAxes::ZUpLeftHanded,
                                     WorldAxes::YUpLeftHanded};

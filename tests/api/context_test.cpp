@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/sky/sky_fixture.h"
+#include "tests/passes/sky/sky_fixture.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -106,8 +106,7 @@ TEST_F(StandardSkyTest, ASkyContextTakesUploadsButDoesNotBake) {
   const headless::HostBuffer answers =
       device().createHostBuffer(kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, nullptr);
   run([&](VkCommandBuffer commands) {
-    EXPECT_EQ(recordProbe(empty, commands, &query, 1, answers.buffer()),
-              Status::Unsupported);
+    EXPECT_EQ(recordProbe(empty, commands, &query, 1, answers.buffer()), Status::Unsupported);
     return true;
   });
   destroyTables(empty);
@@ -179,8 +178,7 @@ TEST_F(StandardSkyTest, TableAndProbeArgumentsAreChecked) {
   run([&](VkCommandBuffer commands) {
     const auto refuses = [&](const ProbeQuery& query, const char* part) {
       const ProbeQuery queries[] = {ProbeQuery{}, query};
-      EXPECT_EQ(recordProbe(baked, commands, queries, 2, answers.buffer()),
-                Status::InvalidArgument)
+      EXPECT_EQ(recordProbe(baked, commands, queries, 2, answers.buffer()), Status::InvalidArgument)
           << part;
       EXPECT_TRUE(contains(message(), "ProbeQuery 1") && contains(message(), part)) << message();
     };
@@ -224,14 +222,10 @@ TEST_F(StandardSkyTest, TableAndProbeArgumentsAreChecked) {
     query.bounded = true;
     refuses(query, "bounded = 1");
     const ProbeQuery good;
-    EXPECT_EQ(recordProbe(baked, commands, &good, 0, answers.buffer()),
-              Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(baked, commands, nullptr, 1, answers.buffer()),
-              Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(baked, commands, &good, 1, VK_NULL_HANDLE),
-              Status::InvalidArgument);
-    EXPECT_EQ(recordProbe(nullptr, commands, &good, 1, answers.buffer()),
-              Status::InvalidArgument);
+    EXPECT_EQ(recordProbe(baked, commands, &good, 0, answers.buffer()), Status::InvalidArgument);
+    EXPECT_EQ(recordProbe(baked, commands, nullptr, 1, answers.buffer()), Status::InvalidArgument);
+    EXPECT_EQ(recordProbe(baked, commands, &good, 1, VK_NULL_HANDLE), Status::InvalidArgument);
+    EXPECT_EQ(recordProbe(nullptr, commands, &good, 1, answers.buffer()), Status::InvalidArgument);
     return true;
   });
   resourceReport(context(), &after);

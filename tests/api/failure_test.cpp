@@ -1,7 +1,7 @@
 // Every Vulkan call of the library that can fail is made to fail, one after the other, from the
 // context to a probe: the status is the documented one, a sentence names what happened, and nothing
 // stays behind. What stays, validation reports when the device goes.
-#include "tests/sky/sky_fixture.h"
+#include "tests/passes/sky/sky_fixture.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -25,7 +25,14 @@ struct Host {
     TableDesc tiny;
     tiny.solver = Solver::Standard;
     tiny.orders = 2;
-    tiny.sizes = {.transmittanceMu = 4, .transmittanceR = 4, .irradianceMuS = 4, .irradianceR = 2, .scatteringR = 2, .scatteringMu = 4, .scatteringMuS = 4, .scatteringNu = 2};
+    tiny.sizes = {.transmittanceMu = 4,
+                  .transmittanceR = 4,
+                  .irradianceMuS = 4,
+                  .irradianceR = 2,
+                  .scatteringR = 2,
+                  .scatteringMu = 4,
+                  .scatteringMuS = 4,
+                  .scatteringNu = 2};
     status = createTables(context, preset("earth"), tiny, &tables);
     if (status != Status::Ok) return keep(status, tables == nullptr && empty());
     ViewDesc viewDesc;
@@ -111,8 +118,7 @@ TEST_F(StandardSkyTest, FailingProbesLeaveTheTablesReady) {
     vulkan().failAt = n;
     run([&](VkCommandBuffer commands) {
       const ProbeQuery query;
-      const Status status =
-          recordProbe(tables(), commands, &query, 1, answers.buffer());
+      const Status status = recordProbe(tables(), commands, &query, 1, answers.buffer());
       succeeded = status == Status::Ok;
       if (!succeeded) {
         EXPECT_EQ(status, Status::OutOfDeviceMemory) << message();

@@ -1,6 +1,6 @@
 #version 460
-// A host's own shader in place of the sky's: one colour, and what the sky's has not: a resource; more push constants
-// (164 bytes), and two images at a binding.
+// A host's own shader in place of the sky's: one colour, and what the sky's has not: a resource; more push
+// constants (164 bytes), and two images at a binding.
 #if defined(WITH_MORE)
 struct Part { mat4 m; vec3 v; float f; };
 layout(push_constant) uniform More { Part parts[2]; float more; };

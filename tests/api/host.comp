@@ -13,10 +13,10 @@ struct Question {
   vec4 sun;
 };
 struct Answer {
-  vec4 whole;          // radiance of the air along the whole ray
+  vec4 whole;          // radiance of the atmosphere along the whole ray
   vec4 toPoint;        // and to a point of it
   vec4 transmittance;  // to that point
-  vec4 toSpace;        // transmittance to what lies beyond the air
+  vec4 toSpace;        // transmittance to what lies beyond the atmosphere
   vec4 direct;
   vec4 sky;
 };

@@ -8,8 +8,8 @@
 #include <cstdio>
 #include <cstring>
 
-#include "tests/sky/sky_fixture.h"
-#include "tests/sky/steps.h"
+#include "tests/passes/sky/sky_fixture.h"
+#include "tests/passes/sky/steps.h"
 
 namespace alpenglow::testing {
 namespace {

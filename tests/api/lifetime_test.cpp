@@ -1,7 +1,7 @@
 // Lives of objects: destroyed with frames in flight, uploaded instead of baked, counted.
 #include <utility>
 
-#include "tests/sky/sky_fixture.h"
+#include "tests/passes/sky/sky_fixture.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -119,8 +119,7 @@ TEST_F(StandardSkyTest, UploadedTablesDrawTheSameBytes) {
         return recordTableReadback(baked, commands, id, bytes.buffer(), 0) == Status::Ok;
       });
       run([&](VkCommandBuffer commands) {
-        return recordTableUpload(uploaded, commands, id, bytes.buffer(), 0) ==
-               Status::Ok;
+        return recordTableUpload(uploaded, commands, id, bytes.buffer(), 0) == Status::Ok;
       });
     }
     EXPECT_TRUE(ready(uploaded));
@@ -246,8 +245,8 @@ TEST_F(SkyTest, ALutOfAnAbandonedFrameIsRecordedAgain) {
   EXPECT_TRUE(diagnostics().empty()) << lastDiagnostic();
 }
 
-// Between beginFrame and the record functions of a frame, and between frames in flight, nothing that
-// they use goes away: not with a picture of another size, nor with tables that are destroyed.
+// Between beginFrame and the record functions of a frame, and between frames in flight, nothing
+// that they use goes away: not with a picture of another size, nor with tables that are destroyed.
 TEST_F(SkyTest, TablesMayBeDestroyedWhileTheirFramesAreInFlight) {
   Context* made = nullptr;
   ASSERT_EQ(createContext(contextDesc(), &made), Status::Ok);

@@ -7,7 +7,7 @@
 #include <new>
 #include <set>
 
-#include "tests/sky/sky_fixture.h"
+#include "tests/passes/sky/sky_fixture.h"
 
 namespace {
 thread_local bool counting = false;
@@ -137,7 +137,7 @@ TEST_F(StandardSkyTest, RefusingHooksLeaveNothing) {
   destroyContext(made);
 }
 
-/// A host's allocator that serves every mapped range from one VkDeviceMemory, which it maps once.
+/// A host's allocator that takes every mapped range from one VkDeviceMemory, which it maps once.
 struct Pool {
   static constexpr VkDeviceSize kBytes = 1 << 16;
   Hooks dedicated;  ///< For the rest.
@@ -350,7 +350,7 @@ TEST_F(StandardSkyTest, RecordingAllocatesNothing) {
   viewDesc.colorFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
   ASSERT_EQ(createView(made, baked, viewDesc, &view), Status::Ok);
   FrameState draw = makeDraw(cameraFromGeodetic(preset("earth"), 0.0, 0.0, 2.0, 0.0, 0.1, 0.0, 1.0),
-                          {0.6, 0.0, 0.8}, {24, 16});
+                             {0.6, 0.0, 0.8}, {24, 16});
   TargetDesc targetDesc;
   targetDesc.extent = draw.viewport.extent;
   Target target(*bare, targetDesc);

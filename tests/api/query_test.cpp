@@ -6,7 +6,7 @@
 #include <random>
 #include <thread>
 
-#include "tests/sky/sky_fixture.h"
+#include "tests/passes/sky/sky_fixture.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -93,8 +93,8 @@ std::vector<ProbeQuery> randomQueries(uint32_t count) {
                                 : std::exp(uniform(std::log(2.0), std::log(6e4)));
     const double dip = std::acos(6360e3 / (6360e3 + q.altitude_m));
     q.zenith = q.altitude_m > 6e4 ? kPi - (kPi / 2.0 - dip) * uniform(0.0, 1.02)
-                   : i % 5 == 0       ? kPi / 2.0 + dip + uniform(-0.02, 0.02)
-                                      : uniform(0.0, kPi);
+               : i % 5 == 0       ? kPi / 2.0 + dip + uniform(-0.02, 0.02)
+                                  : uniform(0.0, kPi);
     q.sunZenith = radians(uniform(0.0, 105.0));
     q.azimuth = uniform(-kPi, kPi);
     q.bounded = i % 4 == 2;
@@ -212,8 +212,7 @@ TEST_F(QueryTest, UploadedTablesAnswerAsTheBakedOnesDo) {
       return recordTableReadback(baked, commands, id, buffer.buffer(), 0) == Status::Ok;
     });
     run([&](VkCommandBuffer commands) {
-      return recordTableUpload(uploaded, commands, id, buffer.buffer(), 0) ==
-             Status::Ok;
+      return recordTableUpload(uploaded, commands, id, buffer.buffer(), 0) == Status::Ok;
     });
   }
   finishFrames();

@@ -40,24 +40,24 @@ TEST_F(QueryRequirementsTest, AnswersWhatIsAskedFor) {
 
 TEST_F(QueryRequirementsTest, WhatTheDeviceHasRemains) {
   mock_.features.dualSrcBlend = VK_FALSE;
-  EXPECT_EQ(query(kCapabilityBake | kCapabilitySky | kCapabilityAir | kCapabilityShafts |
-                  kCapabilityShadowVolumes),
+  EXPECT_EQ(query(kCapabilityBake | kCapabilitySky | kCapabilityAerialPerspective |
+                  kCapabilityLightShafts | kCapabilityShadowVolumes),
             Status::Unsupported);
   EXPECT_EQ(mock_.lastDiagnostic(),
             "The device \"mock\" lacks what is needed: independentBlend, geometryShader, "
             "dualSrcBlend, shaderClipDistance.");
   EXPECT_EQ(mock_.diagnostics.size(), 1u);
-  EXPECT_EQ(found_.capabilities, kCapabilityBake | kCapabilitySky | kCapabilityShafts);
+  EXPECT_EQ(found_.capabilities, kCapabilityBake | kCapabilitySky | kCapabilityLightShafts);
   EXPECT_EQ(found_.features.depthClamp, VK_TRUE);
   EXPECT_EQ(found_.features.geometryShader, VK_FALSE);
   EXPECT_EQ(query(found_.capabilities), Status::Ok);
 }
 
-TEST_F(QueryRequirementsTest, ShadowVolumesGoWithTheirShafts) {
+TEST_F(QueryRequirementsTest, ShadowVolumesGoWithTheirLightShafts) {
   mock_.features.geometryShader = mock_.features.shaderClipDistance = VK_TRUE;
   mock_.features.independentBlend = VK_TRUE;
   mock_.features.depthClamp = VK_FALSE;
-  EXPECT_EQ(query(kCapabilitySky | kCapabilityShafts | kCapabilityShadowVolumes),
+  EXPECT_EQ(query(kCapabilitySky | kCapabilityLightShafts | kCapabilityShadowVolumes),
             Status::Unsupported);
   EXPECT_EQ(found_.capabilities, CapabilityFlags{kCapabilitySky});
 }
@@ -83,10 +83,10 @@ TEST_F(QueryRequirementsTest, AnOldDeviceOrLoaderIsTheReasonAndNothingRemains) {
 }
 
 TEST_F(QueryRequirementsTest, WrongArgumentsLeaveTheAnswer) {
-  ASSERT_EQ(query(kCapabilityAir), Status::Ok);
+  ASSERT_EQ(query(kCapabilityAerialPerspective), Status::Ok);
   EXPECT_EQ(query(1u << 9), Status::InvalidArgument);
   EXPECT_NE(mock_.lastDiagnostic().find("ContextDesc::capabilities is 512"), std::string::npos);
-  EXPECT_EQ(found_.capabilities, CapabilityFlags{kCapabilityAir});
+  EXPECT_EQ(found_.capabilities, CapabilityFlags{kCapabilityAerialPerspective});
 }
 
 }  // namespace

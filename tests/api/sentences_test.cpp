@@ -1,16 +1,16 @@
 // Every failing call says one sentence: those that need no device.
 #include <alpenglow/camera.h>
-#include <alpenglow/mesh.h>
+#include <alpenglow/mesh/adjacency.h>
+#include <alpenglow/mesh/terrain.h>
 #include <alpenglow/plan.h>
-#include <alpenglow/reference.h>
-#include <alpenglow/terrain.h>
+#include <alpenglow/reference/reference.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 
 #include "tests/engine/mock_vulkan.h"
-#include "tests/model/heard.h"
+#include "tests/parameters/heard.h"
 
 namespace alpenglow {
 namespace {
@@ -96,7 +96,8 @@ const Call kCalls[] = {
     // camera.h
     {"cameraFromMatrices", "null argument",
      [](Sink sink) {
-       return cameraFromMatrices(kIdentity, nullptr, DepthConvention::Standard, false, nullptr, sink);
+       return cameraFromMatrices(kIdentity, nullptr, DepthConvention::Standard, false, nullptr,
+                                 sink);
      }},
     {"cameraFromMatrices", "worldFromView that is not finite",
      [](Sink sink) { return matricesSpoilt(sink, true, 5, kNaN); }},
@@ -115,9 +116,7 @@ const Call kCalls[] = {
     {"cameraFromMatrices", "off-centre",
      [](Sink sink) { return matricesSpoilt(sink, false, 8, 0.5); }},
     {"cameraFromMatrices", "DepthConvention",
-     [](Sink sink) {
-       return matricesSpoilt(sink, false, 14, 0.5, DepthConvention::Standard);
-     }},
+     [](Sink sink) { return matricesSpoilt(sink, false, 14, 0.5, DepthConvention::Standard); }},
     // context.h
     {"queryRequirements", "requirements",
      [](Sink sink) { return queryRequirements(contextDesc(sink), nullptr); }},

@@ -4,14 +4,14 @@
 #include <alpenglow/shaders/host_flat_more.h>
 #include <alpenglow/shaders/moment_depth.h>
 #include <alpenglow/shaders/moment_single.h>
-#include <alpenglow/shaders/sky_fragment_slice.h>
+#include <alpenglow/shaders/sky_fragment_lut.h>
 
 #include <random>
 #include <set>
 #include <span>
 
 #include "engine/spirv_interface.h"
-#include "tests/sky/sky_fixture.h"
+#include "tests/passes/sky/sky_fixture.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -82,7 +82,7 @@ class ShaderHookTest : public SkyTest {
   std::vector<Tables*> tables_;
 };
 
-TEST_F(ShaderHookTest, TheNextViewUsesTheHostsCodeAndTheOneAfterItOurs) {
+TEST_F(ShaderHookTest, HookAppliesToTheNextViewOnly) {
   Tables* tables = bake();
   bakeAll(device(), tables);
   View *own = nullptr, *flat = nullptr, *again = nullptr;
@@ -119,7 +119,7 @@ TEST_F(ShaderHookTest, CodeThatDoesNotFitIsRefusedWithASentence) {
   refused({}, "kSkyFragment|0x07230203");
 }
 
-TEST_F(ShaderHookTest, ABakesCodeIsAskedForAgainWithEachTables) {
+TEST_F(ShaderHookTest, BakeCodeIsRequestedForEachTables) {
   bakeAll(device(), bake());
   EXPECT_TRUE(replacement_.asked.contains("kMomentDepth"));
   // No pass fits in place of another.
@@ -138,16 +138,16 @@ TEST_F(ShaderHookTest, ABakesCodeIsAskedForAgainWithEachTables) {
 
 TEST(SpirvInterface, OfOurOwnShadersNamesWhatTheyDeclare) {
   engine::SpirvInterface found;
-  const auto sky = Words(shaders::kSkyFragmentSlice);
+  const auto sky = Words(shaders::kSkyFragmentLut);
   ASSERT_EQ(engine::readInterface(sky.data(), sky.size_bytes(), &found), nullptr);
   EXPECT_EQ(found.model, 4u);  // Fragment.
   EXPECT_TRUE(found.pushConstants);
-  bool slice = false;
+  bool lut = false;
   for (const engine::SpirvResource& resource : found.resources) {
-    slice |= resource.set == 1 && resource.binding == 1 &&
-             std::string(engine::kindName(resource.kind)) == "a sampled image";
+    lut |= resource.set == 1 && resource.binding == 1 &&
+           std::string(engine::kindName(resource.kind)) == "a sampled image";
   }
-  EXPECT_TRUE(slice);
+  EXPECT_TRUE(lut);
   const auto depth = Words(shaders::kMomentDepth);
   ASSERT_EQ(engine::readInterface(depth.data(), depth.size_bytes(), &found), nullptr);
   EXPECT_EQ(found.localSize[0] * found.localSize[1] * found.localSize[2], 64u);
@@ -161,14 +161,14 @@ TEST(SpirvInterface, SizesOfBlocksAndArraysAreKnown) {
   EXPECT_EQ(found.pushConstantEnd, 164u);
   ASSERT_EQ(found.resources.size(), 1u);
   EXPECT_EQ(found.resources[0].count, 2u);
-  const auto sky = Words(shaders::kSkyFragmentSlice);
+  const auto sky = Words(shaders::kSkyFragmentLut);
   ASSERT_EQ(engine::readInterface(sky.data(), sky.size_bytes(), &found), nullptr);
   EXPECT_EQ(found.pushConstantEnd % 16, 0u);  // Its last member is a vec4.
   EXPECT_GE(found.pushConstantEnd, 96u);
 }
 
-TEST(SpirvInterface, NothingThatAFileMayHoldIsReadBeyond) {
-  const auto sky = Words(shaders::kSkyFragmentSlice);
+TEST(SpirvInterface, MalformedFilesAreNotReadOutOfBounds) {
+  const auto sky = Words(shaders::kSkyFragmentLut);
   engine::SpirvInterface found;
   for (size_t words = 0; words < sky.size(); ++words) {
     // A copy of exactly this size, so that sanitizers see a read behind it.

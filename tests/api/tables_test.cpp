@@ -1,7 +1,7 @@
 // What tables say of themselves, and what this version refuses.
 #include <cstring>
 
-#include "tests/sky/sky_fixture.h"
+#include "tests/passes/sky/sky_fixture.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -66,8 +66,7 @@ class TablesTest : public SkyTest {
 
   static bool sameDesc(const TableDesc& a, const TableDesc& b) {
     bool same = a.solver == b.solver && a.quality == b.quality && a.orders == b.orders &&
-                a.format == b.format && a.mie == b.mie &&
-                a.wavelengthCount == b.wavelengthCount &&
+                a.format == b.format && a.mie == b.mie && a.wavelengthCount == b.wavelengthCount &&
                 std::memcmp(&a.sizes, &b.sizes, sizeof a.sizes) == 0 &&
                 a.disabledEffects == b.disabledEffects && a.sunZenithFrom == b.sunZenithFrom &&
                 a.sunZenithTo == b.sunZenithTo && a.cpuQueries == b.cpuQueries &&
@@ -195,8 +194,7 @@ TEST_F(TablesTest, StatesFollowTheBake) {
       EXPECT_EQ(advanceFrame(context(), lastFrame, lastFrame - 1), Status::Ok);
       return recordBake(tables, commands, 0, &progress) == Status::Ok;
     });
-    EXPECT_EQ(infoOf(tables).state,
-              progress.done ? TablesState::Recorded : TablesState::Baking);
+    EXPECT_EQ(infoOf(tables).state, progress.done ? TablesState::Recorded : TablesState::Baking);
   }
   const uint64_t next = device().frame();
   ASSERT_EQ(advanceFrame(context(), next, lastFrame - 1), Status::Ok);
@@ -222,11 +220,10 @@ TEST_F(TablesTest, ImagesAreDescribedByTheirId) {
     EXPECT_NE(image.image, VkImage{VK_NULL_HANDLE}) << id;
     EXPECT_NE(image.view, VkImageView{VK_NULL_HANDLE}) << id;
     const uint64_t texel = image.format == VK_FORMAT_R16G16B16A16_SFLOAT ? 8 : 16;
-    EXPECT_EQ(image.bytes,
-              texel * image.extent.width * image.extent.height * image.extent.depth);
+    EXPECT_EQ(image.bytes, texel * image.extent.width * image.extent.height * image.extent.depth);
     EXPECT_EQ(image.layout, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL) << id;
-    EXPECT_EQ(image.stage, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
-                               VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT)
+    EXPECT_EQ(image.stage,
+              VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT)
         << id;
     EXPECT_EQ(image.access, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT) << id;
   }
@@ -253,9 +250,9 @@ TEST_F(TablesTest, OnlyTheReadersThatThereAreWait) {
     ASSERT_EQ(createTables(made, preset("earth"), desc, &tables), Status::Ok) << lastDiagnostic();
     bakeAll(device(), tables);
     const VkPipelineStageFlags2 expected =
-        readers != 0 ? readers
-                     : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
-                           VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
+        readers != 0
+            ? readers
+            : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
     EXPECT_EQ(readersOfLastBarrier, expected);
     for (const TableId id : {kTableOpticalDepth, kTableMoments, kTableSource})
       EXPECT_EQ(imageOf(tables, id).stage, expected) << id;

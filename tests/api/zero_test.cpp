@@ -1,6 +1,7 @@
 // Every struct of the core is plain data whose default is zero: `{}`, memset and a language without
 // constructors all begin with the same description.
 #include <alpenglow/alpenglow.h>
+#include <alpenglow/mesh/adjacency.h>
 #include <alpenglow/plan.h>
 #include <gtest/gtest.h>
 
@@ -18,15 +19,12 @@ class Zero : public ::testing::Test {};
 /// tests/health/count_api.py prints their names.
 using Structs =
     ::testing::Types<AbsorptionParameters, AdjacencyReport, BakeProgress, Box, Camera, CasterPass,
-                             Casters, ContextDesc, Diagnostic, DiagnosticSink,
-                             FrameDesc, FrameWork, HostImage, ImageInfo,
-                             ImageState, Light, LightDesc, LightShaftDesc,
-                             MemoryHooks, MemoryRange, MeshView, MieParameters,
-                             Parameters, Plan, PlanChoice, PlanCost, PlanRequest,
-                             Preset, ProbeAnswer, ProbeQuery, RayleighParameters,
-                             Requirements, ResourceReport, ShaderHook, Spectrum,
-                             TableDesc, TableSizes, TablesInfo, ViewDesc,
-                             ViewInfo, World>;
+                     Casters, ContextDesc, Diagnostic, DiagnosticSink, FrameDesc, FrameWork,
+                     HostImage, ImageInfo, ImageState, Light, LightDesc, LightShaftDesc,
+                     MemoryHooks, MemoryRange, MeshView, MieParameters, Parameters, Plan,
+                     PlanChoice, PlanCost, PlanRequest, Preset, ProbeAnswer, ProbeQuery,
+                     RayleighParameters, Requirements, ResourceReport, ShaderHook, Spectrum,
+                     TableDesc, TableSizes, TablesInfo, ViewDesc, ViewInfo, World>;
 TYPED_TEST_SUITE(Zero, Structs);
 
 /// Over bytes that are zero, since what pads a struct is nobody's.

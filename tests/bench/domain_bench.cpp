@@ -1,11 +1,11 @@
-// What tables for fewer suns cost, and how far they are from the truth of a scene at ground level
-// under a sun that stands 3 degrees high. User CPU of lavapipe, all threads, the least of three
-// bakes after one that compiled the shaders.
+// What tables for a shorter range of sun elevations cost, and how far they are from the truth of a
+// scene at ground level under a sun that stands 3 degrees high. User CPU of lavapipe, all threads,
+// the least of three bakes after one that compiled the shaders.
 #include <cstdio>
 #include <numbers>
 
-#include "tests/bake/truth_errors.h"
 #include "tests/bench/cpu_time.h"
+#include "tests/tables/truth_errors.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -31,8 +31,9 @@ class DomainBench : public TruthTest {
     const TruthErrors errors = errorsOf(set, tables);
     row.p95 = errors.p95(truth::Band::Low);
     row.most = errors.most(truth::Band::Low);
-    std::printf("| %s | %u | %.2f | %.2f | %.2f / %.2f | %.2f |\n", name, source.extent.height, row.cpu_s,
-                1e-6 * row.bytes, 100 * row.p95, 100 * row.most, 100 * errors.irradiance);
+    std::printf("| %s | %u | %.2f | %.2f | %.2f / %.2f | %.2f |\n", name, source.extent.height,
+                row.cpu_s, 1e-6 * row.bytes, 100 * row.p95, 100 * row.most,
+                100 * errors.irradiance);
     std::fflush(stdout);
     return row;
   }

@@ -1,10 +1,10 @@
-// What effects cost, told by what tables and frames cost without each: user CPU of lavapipe, all
-// threads, the least of some after one that compiled the shaders.
+// What effects cost, measured by what tables and frames cost without each: user CPU of lavapipe,
+// all threads, the least of some after one that compiled the shaders.
 #include <algorithm>
 #include <cstdio>
 
 #include "tests/bench/cpu_time.h"
-#include "tests/shafts/shaft_fixture.h"
+#include "tests/passes/light_shafts/light_shaft_fixture.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -21,12 +21,12 @@ constexpr VkExtent2D kExtent = {24, 16};
 /// Tables and views without something, and what they have cost so far.
 struct EffectCase {
   const char* name;
-  EffectFlags without = 0;
-  bool settingsOfWhole = false;  ///< Else those that the air that is left calls for.
+  EffectFlags disabledEffects = 0;
+  bool settingsOfWhole = false;  ///< Else those that the atmosphere that is left calls for.
   Tables* tables = nullptr;
   View *sky = nullptr, *air = nullptr;
   double bake_s = 1e9, slice_s = 1e9, air_s = 1e9;
-  double tableBytes = 0.0, bakeBytes = 0.0, sliceBytes = 0.0, airBytes = 0.0;
+  double tableBytes = 0.0, bakeBytes = 0.0, lutBytes = 0.0, aerialPerspectiveBytes = 0.0;
 };
 
 TableSizes sizesOf(const Parameters& parameters, Quality quality) {
@@ -36,7 +36,7 @@ TableSizes sizesOf(const Parameters& parameters, Quality quality) {
   return desc.sizes;
 }
 
-class EffectsBench : public ShaftTest {
+class EffectsBench : public LightShaftTest {
  protected:
   double bytes() {
     finishFrames(context());
@@ -48,7 +48,7 @@ class EffectsBench : public ShaftTest {
   Tables* bakeOnce(EffectCase* each) {
     const double before = bytes();
     TableDesc desc;
-    desc.disabledEffects = each->without & kTableEffects;
+    desc.disabledEffects = each->disabledEffects & kTableEffects;
     if (each->settingsOfWhole) desc.sizes = sizesOf(preset("earth"), desc.quality);
     Tables* tables = nullptr;
     EXPECT_EQ(createTables(context(), preset("earth"), desc, &tables), Status::Ok) << message();
@@ -86,12 +86,12 @@ class EffectsBench : public ShaftTest {
     host_.shafts = false;
     ViewDesc desc = viewDesc();
     desc.sky = SkyMethod::Lut;
-    desc.disabledEffects = each->without | kGroundAndDisc;
-    each->sky = makeOne(each->tables, desc, &each->sliceBytes);
+    desc.disabledEffects = each->disabledEffects | kGroundAndDisc;
+    each->sky = makeOne(each->tables, desc, &each->lutBytes);
     desc.aerialPerspective = AerialPerspective::On;
     desc.sceneDepthFormat = host_.depthFormat;
     desc.depth = host_.depth;
-    each->air = makeOne(each->tables, desc, &each->airBytes);
+    each->air = makeOne(each->tables, desc, &each->aerialPerspectiveBytes);
   }
 
   /// The kernel shares time out by its ticks, so a mean takes many of them.
@@ -103,11 +103,11 @@ class EffectsBench : public ShaftTest {
   }
 
   FrameState looking_;
-  ShaftSetup host_;  ///< Its depth is stated with the frames.
+  LightShaftSetup host_;  ///< Its depth is stated with the frames.
 };
 
 // By turns, so that what else the machine does meets all alike.
-TEST_F(EffectsBench, WhatEachSaves) {
+TEST_F(EffectsBench, SavingsOfEachEffect) {
   looking_ = drawFrom({500, 0, 0}, 90, 50, 40, kExtent, 20, 140);
   std::vector<EffectCase> cases = {{"nothing"},
                                    {"rayleigh", kRayleigh},
@@ -128,12 +128,12 @@ TEST_F(EffectsBench, WhatEachSaves) {
     }
   }
   std::printf(
-      "| without | bake cpu-s | tables MB | scratch MB | slice cpu-ms | slice MB | slice and air "
-      "cpu-ms | slice and air MB |\n");
+      "| without | bake cpu-s | tables MB | scratch MB | LUT cpu-ms | LUT MB | LUTs "
+      "cpu-ms | LUTs MB |\n");
   for (const EffectCase& each : cases) {
     std::printf("| %s | %.2f | %.2f | %.2f | %.1f | %.2f | %.1f | %.1f |\n", each.name, each.bake_s,
                 1e-6 * each.tableBytes, 1e-6 * each.bakeBytes, 1e3 * each.slice_s,
-                1e-6 * each.sliceBytes, 1e3 * each.air_s, 1e-6 * each.airBytes);
+                1e-6 * each.lutBytes, 1e3 * each.air_s, 1e-6 * each.aerialPerspectiveBytes);
     destroyTables(each.tables);
   }
   const EffectCase &whole = cases[0], &clear = cases[3], &single = cases[5], &inside = cases[9];
@@ -143,7 +143,7 @@ TEST_F(EffectsBench, WhatEachSaves) {
   EXPECT_LT(clear.slice_s, whole.slice_s);
   EXPECT_LT(single.bake_s, 0.1 * whole.bake_s);
   EXPECT_LT(single.slice_s, 0.7 * whole.slice_s);
-  EXPECT_EQ(2.0 * inside.airBytes, whole.airBytes);
+  EXPECT_EQ(2.0 * inside.aerialPerspectiveBytes, whole.aerialPerspectiveBytes);
 }
 
 }  // namespace

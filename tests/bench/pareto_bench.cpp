@@ -3,8 +3,8 @@
 // cent, 95th percentile / greatest, by sun band.
 #include <cstdio>
 
-#include "tests/bake/truth_errors.h"
 #include "tests/bench/cpu_time.h"
+#include "tests/tables/truth_errors.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -43,7 +43,7 @@ class ParetoBench : public TruthTest {
   }
 };
 
-TEST_F(ParetoBench, EachLevelIsNearerToTheTruth) {
+TEST_F(ParetoBench, FinerLevelsHaveSmallerErrors) {
   constexpr Level kLevels[] = {{"draft", Quality::Draft},
                                {"low", Quality::Low},
                                {"medium", Quality::Medium},

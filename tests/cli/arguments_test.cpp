@@ -1,4 +1,4 @@
-// Commands, options and what is said about wrong ones.
+// Commands, options and the messages for wrong ones.
 #include <alpenglow/version.h>
 
 #include <fstream>
@@ -32,8 +32,8 @@ TEST_F(Program, HelpNamesWhatExistsAndNothingElse) {
                                "--format", "--mie", "--keep-orders", "--device", "--report"}) {
       EXPECT_NE(help.find(option), std::string::npos) << command << " " << option;
     }
-    const bool walks = help.find("--walk") != std::string::npos;
-    EXPECT_EQ(walks, std::string(command) == "render") << command;
+    const bool flythroughs = help.find("--flythrough") != std::string::npos;
+    EXPECT_EQ(flythroughs, std::string(command) == "render") << command;
   }
 }
 
@@ -48,7 +48,7 @@ TEST_F(Program, UnknownCommandsAndOptions) {
   expectRefused({"--quiet"}, {"--quiet"});
   expectRefused({"presets", "--json"}, {"--json"});
   expectRefused({"presets", "earth", "mars"}, {"mars"});
-  expectRefused({"bake", "earth", "-o", folder_ / "t.exr", "--walk", "w"}, {"--walk"});
+  expectRefused({"bake", "earth", "-o", folder_ / "t.exr", "--flythrough", "w"}, {"--flythrough"});
   expectRefused({"bake", "-o", folder_ / "t.exr"}, {"ATMOSPHERE", "required"});
   expectRefused({"bake", "earth"}, {"--output", "required"});
   expectRefused({"bake", "earth", "-o"}, {"--output"});

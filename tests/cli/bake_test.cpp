@@ -28,7 +28,7 @@ TEST_F(Program, BakesWhatItsOptionsSay) {
 }
 
 // Proves that the net of runProgram holds: asked for advice, the layer has something to say.
-TEST_F(Program, WhatValidationSaysIsHeard) {
+TEST_F(Program, ValidationMessagesFailTheProgram) {
   const Outcome outcome = runProgram(bakeOf("earth", folder_ / "t.exr"), validated(true));
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("Validation"), std::string::npos) << outcome.out;
@@ -65,7 +65,7 @@ TEST_F(Program, ASceneFileIsAnAtmosphereToo) {
   EXPECT_EQ(io::readTableFile(folder_ / "t.exr")->desc.orders, 2u);
 }
 
-TEST_F(Program, ANameWinsOverAFileOfTheSameName) {
+TEST_F(Program, NamesTakePrecedenceOverFiles) {
   const Outcome mars = runProgram({"presets", "mars"});
   const std::string program = ALPENGLOW_PROGRAM;
   folder_.write("earth", mars.out);

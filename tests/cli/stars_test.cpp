@@ -1,7 +1,7 @@
 // Stars in pictures: their light against the catalogue and the reference's transmittance.
 #include <alpenglow/camera.h>
 #include <alpenglow/io/image_file.h>
-#include <alpenglow/reference.h>
+#include <alpenglow/reference/reference.h>
 
 #include <algorithm>
 #include <cmath>
@@ -147,7 +147,7 @@ TEST(StarCatalogue, HasTheSkysBrightest) {
     ASSERT_GE(stars[i].magnitude, stars[i - 1].magnitude);
     ASSERT_LE(stars[i].magnitude, 6.5);
   }
-  // V = 0 is 2.54e-6 lux, and the sun 1.27e5 to 1.28e5 above the air.
+  // V = 0 is 2.54e-6 lux, and the sun 1.27e5 to 1.28e5 above the atmosphere.
   EXPECT_NEAR(samples::shareOfSun({0.0, 0.0, 0.0}) * 1.275e5, 2.54e-6, 0.03e-6);
   // On the meridian at the sidereal time of its right ascension.
   EXPECT_NEAR(placeOf(stars[0], stars[0].rightAscension * kDegrees / 15.0).azimuth_deg, 180.0,
@@ -163,11 +163,11 @@ TEST_F(Stars, FluxIsTheCataloguesTimesTheTransmittance) {
       shot.aim = placeOf(star, hours);
       if (shot.aim.elevation_deg < 2.0) continue;
       (shot.aim.elevation_deg < 25.0 ? low : high) += 1;
-      const Spectrum seen = irradiance(render(shot, true), shot);
+      const Spectrum detected = irradiance(render(shot, true), shot);
       const Spectrum t = transmittance(shot.altitude_m, shot.aim.elevation_deg);
       for (uint32_t c = 0; c < 3; ++c) {
         const double expected = samples::shareOfSun(star) * t[c];
-        EXPECT_NEAR(seen[c], expected, 0.01 * expected)
+        EXPECT_NEAR(detected[c], expected, 0.01 * expected)
             << "V " << star.magnitude << " at " << shot.aim.elevation_deg;
       }
     }
@@ -182,9 +182,9 @@ TEST_F(Stars, InSpaceNothingDimsThem) {
   shot.altitude_m = 1e6;
   shot.aim = placeOf(star, shot.siderealHours);
   ASSERT_GT(shot.aim.elevation_deg, 5.0);
-  const Spectrum seen = irradiance(render(shot, true), shot);
+  const Spectrum detected = irradiance(render(shot, true), shot);
   for (uint32_t c = 0; c < 3; ++c) {
-    EXPECT_NEAR(seen[c] / samples::shareOfSun(star), 1.0, 1e-4);
+    EXPECT_NEAR(detected[c] / samples::shareOfSun(star), 1.0, 1e-4);
   }
 }
 
@@ -235,13 +235,14 @@ TEST_F(Stars, GroundAndTerrainHideThem) {
 }
 
 /// A star of a picture, and how it shows.
-struct Seen {
+struct DetectedStar {
   double magnitude = 0.0;
   double light = 0.0;  ///< Of its brightest pixel, above the sky's.
   double sky = 0.0;    ///< There.
 };
 
-std::vector<Seen> starsOf(const LinearImage& with, const LinearImage& without, const Shot& shot) {
+std::vector<DetectedStar> starsOf(const LinearImage& with, const LinearImage& without,
+                                  const Shot& shot) {
   Parameters earth;
   EXPECT_EQ(findPreset("earth", &earth, {}), Status::Ok);
   Camera camera = cameraAt(earth, {}, kLatitude / kDegrees, 0.0, shot.altitude_m,
@@ -252,7 +253,7 @@ std::vector<Seen> starsOf(const LinearImage& with, const LinearImage& without, c
   float m[16];
   EXPECT_EQ(clipFromCamera(Projection::Perspective, DepthConvention::Reversed, camera, m),
             Status::Ok);
-  std::vector<Seen> seen;
+  std::vector<DetectedStar> detected;
   for (const Star& star : samples::starCatalogue()) {
     double d[3];
     samples::starDirection(star, shot.siderealHours, d);
@@ -262,10 +263,10 @@ std::vector<Seen> starsOf(const LinearImage& with, const LinearImage& without, c
     const double y = (row(1) / row(3) + 1.0) * 0.5 * shot.height;
     if (x < 0.0 || y < 0.0 || x >= shot.width || y >= shot.height) continue;
     const size_t i = (static_cast<size_t>(y) * shot.width + static_cast<size_t>(x)) * 3 + 1;
-    seen.push_back({star.magnitude, static_cast<double>(with.pixels[i] - without.pixels[i]),
-                    static_cast<double>(without.pixels[i])});
+    detected.push_back({star.magnitude, static_cast<double>(with.pixels[i] - without.pixels[i]),
+                        static_cast<double>(without.pixels[i])});
   }
-  return seen;
+  return detected;
 }
 
 double median(std::vector<double> values) {
@@ -285,7 +286,7 @@ TEST_F(Stars, TheBrightestComeFirstInTwilight) {
   size_t countBefore = 0;
   for (const double sun : {-8.0, -10.0, -12.0, -14.0}) {
     shot.sunElevation_deg = sun;
-    const std::vector<Seen> stars = starsOf(render(shot, true), render(shot, false), shot);
+    const std::vector<DetectedStar> stars = starsOf(render(shot, true), render(shot, false), shot);
     before.resize(stars.size(), false);
     std::vector<double> fresh;
     for (size_t i = 0; i < stars.size(); ++i) {
@@ -310,12 +311,12 @@ TEST_F(Stars, ExposureBringsThemOutBrightestFirst) {
   shot.fov_deg = 55.0;
   shot.width = 400;
   shot.height = 300;
-  const std::vector<Seen> stars = starsOf(render(shot, true), render(shot, false), shot);
+  const std::vector<DetectedStar> stars = starsOf(render(shot, true), render(shot, false), shot);
   size_t countBefore = 0;
   double faintestBefore = -9.0;
   for (const double exposure : {1e5, 1e6, 1e7, 1e8}) {
     std::vector<double> shown, hidden;
-    for (const Seen& star : stars) {
+    for (const DetectedStar& star : stars) {
       (exposure * star.light > 0.1 ? shown : hidden).push_back(star.magnitude);
     }
     ASSERT_FALSE(shown.empty());

@@ -69,7 +69,7 @@ std::vector<float> column(const io::LinearImage& image, uint32_t x) {
   return values;
 }
 
-TEST_F(Terrain, HidesTheSkyAndOnlyThere) {
+TEST_F(Terrain, HidesOnlyTheSkyBehindIt) {
   expectGood(renderOf(scene("plain.json"), "plain.exr"));
   expectGood(renderOf(scene("ridge.json", terrain()), "ridge.exr", {"--shafts", "off"}));
   const io::LinearImage plain = picture("plain.exr");
@@ -80,7 +80,7 @@ TEST_F(Terrain, HidesTheSkyAndOnlyThere) {
   }
 }
 
-TEST_F(Terrain, ShaftsTakeLightAway) {
+TEST_F(Terrain, LightShaftsTakeLightAway) {
   const std::string ridge = scene("ridge.json", terrain());
   expectGood(renderOf(ridge, "off.exr", {"--shafts", "off"}));
   const double off = sum(picture("off.exr"));
@@ -97,7 +97,7 @@ TEST_F(Terrain, ShaftsTakeLightAway) {
   EXPECT_NE(picture("few.exr").pixels, picture("march.exr").pixels);
 }
 
-TEST_F(Terrain, WhatIsOffCostsNothing) {
+TEST_F(Terrain, DisabledShaftsCostNothing) {
   const std::string ridge = scene("ridge.json", terrain());
   const auto reportOf = [&](const std::string& sceneName, const char* shafts) {
     expectGood(renderOf(sceneName, "a.exr", {"--shafts", shafts, "--report", folder_ / "r.json"}));
@@ -114,15 +114,15 @@ TEST_F(Terrain, WhatIsOffCostsNothing) {
     }
     return false;
   };
-  for (const char* pass : {"terrain depth", "sun map", "shafts", "terrain", "air", "sky"}) {
+  for (const char* pass : {"terrain depth", "shadow map", "shafts", "terrain", "air", "sky"}) {
     EXPECT_TRUE(has(exact, pass)) << pass;
-    const bool ofShafts = std::string(pass) == "sun map" || std::string(pass) == "shafts";
-    EXPECT_EQ(has(off, pass), !ofShafts) << pass;
+    const bool ofLightShafts = std::string(pass) == "shadow map" || std::string(pass) == "shafts";
+    EXPECT_EQ(has(off, pass), !ofLightShafts) << pass;
     EXPECT_EQ(has(plain, pass), std::string(pass) == "sky") << pass;
   }
   for (const char* count : {"pipelines", "images", "bytes", "draws"}) {
     EXPECT_LT(off["totals"][count], exact["totals"][count]) << count;
-    if (std::string(count) == "images") continue;  // The volume of the air comes with a slice.
+    if (std::string(count) == "images") continue;  // The aerial-perspective LUT comes with a LUT.
     EXPECT_LT(plain["totals"][count], off["totals"][count]) << count;
   }
 }
@@ -150,7 +150,7 @@ TEST_F(Terrain, HasTablesOfTheStandardSolver) {
   expectRefused(standard({"--shafts", "exact"}), {"exact", "moments", "standard"});
 }
 
-TEST_F(Terrain, IsSeenThroughTheAirOfEverySimplerModel) {
+TEST_F(Terrain, EveryBaselineDimsTheTerrain) {
   for (const std::string name : {"hoffman-preetham", "oneil", "schafhitzel", "hillaire"}) {
     const std::string ridge = scene("ridge.json", terrain() + ", \"model\": \"" + name + "\"");
     const Outcome outcome = runProgram({"render", ridge, "-o", folder_ / "a.exr"});
@@ -186,7 +186,7 @@ TEST_F(Terrain, BalloonsAreBlended) {
   EXPECT_NE(picture("air.exr").pixels, picture("sky.exr").pixels) << "Without a terrain.";
 }
 
-TEST_F(Terrain, WhatCannotBeDrawnIsSaid) {
+TEST_F(Terrain, UndrawableScenesAreReported) {
   const std::string ridge = scene("ridge.json", terrain());
   const auto refused = [&](const std::string& sceneName, const std::vector<std::string>& options,
                            const std::vector<std::string>& words) {

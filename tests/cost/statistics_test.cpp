@@ -25,7 +25,7 @@ TEST(Statistics, MediansAndSpread) {
   EXPECT_EQ(timingOf({}).runs, 0u);
 }
 
-TEST(Statistics, TheFrontIsWhatNothingBeats) {
+TEST(Statistics, TheFrontHoldsUndominatedRows) {
   const std::vector<double> x = {1.0, 2.0, 3.0, 4.0, 2.0, 0.0}, y = {9.0, 5.0, 6.0, 1.0, 4.0, 0.5};
   EXPECT_EQ(paretoFront(x, y), (std::vector<size_t>{0, 4, 3}));  // 5 is not above 0
   EXPECT_TRUE(paretoFront({}, {}).empty());
@@ -104,7 +104,7 @@ Row row(const char* name, const char* family, double frame, double error) {
   return row;
 }
 
-TEST(Exceptions, AreWhatMomentsDoNotBeat) {
+TEST(Exceptions, AreRowsBetterThanMoments) {
   Report report;
   report.rows = {row("moments", "moments", 20.0, 0.01),   row("draft", "moments", 8.0, 0.05),
                  row("slow and bad", "oneil", 50.0, 0.5), row("fast", "standard", 5.0, 0.1),

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "atmosphere/bake/table_set.h"
-#include "tests/bake/bake_fixture.h"
-#include "tests/sky/sky_fixture.h"
+#include "atmosphere/tables/table_set.h"
+#include "tests/passes/sky/sky_fixture.h"
+#include "tests/tables/bake_fixture.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -22,16 +22,17 @@ class EffectsTest : public SkyTest {
     return now;
   }
 
-  TableDesc desc(EffectFlags without) {
+  TableDesc desc(EffectFlags disabledEffects) {
     TableDesc desc;
     desc.sizes = kTinySettings;
-    desc.disabledEffects = without;
+    desc.disabledEffects = disabledEffects;
     return desc;
   }
 
-  Tables* bake(const Parameters& parameters, EffectFlags without) {
+  Tables* bake(const Parameters& parameters, EffectFlags disabledEffects) {
     Tables* made = nullptr;
-    EXPECT_EQ(createTables(context(), parameters, desc(without), &made), Status::Ok) << message();
+    EXPECT_EQ(createTables(context(), parameters, desc(disabledEffects), &made), Status::Ok)
+        << message();
     if (made != nullptr) bakeAll(device(), made);
     return made;
   }
@@ -67,19 +68,19 @@ class EffectsTest : public SkyTest {
     return most;
   }
 
-  void compare(const Parameters& parameters, EffectFlags without, double error) {
+  void compare(const Parameters& parameters, EffectFlags disabledEffects, double error) {
     Tables* whole = bake(parameters, 0);
-    Tables* part = bake(parameters, without);
+    Tables* part = bake(parameters, disabledEffects);
     ASSERT_TRUE(whole != nullptr && part != nullptr);
     const double most = difference(whole, part);
-    std::printf("without 0x%02x: %.1e\n", without, most);
-    EXPECT_LE(most, error) << without;
+    std::printf("without 0x%02x: %.1e\n", disabledEffects, most);
+    EXPECT_LE(most, error) << disabledEffects;
     destroyTables(whole);
     destroyTables(part);
   }
 };
 
-TEST_F(EffectsTest, WhatTheAirDoesNotHaveIsNotMissed) {
+TEST_F(EffectsTest, AbsentConstituentsCostNothing) {
   Parameters bare = preset("earth");
   bare.absorption.present = false;
   compare(bare, effectBit(Effect::Absorption), 1e-6);
@@ -95,20 +96,20 @@ TEST_F(EffectsTest, WhatTheAirDoesNotHaveIsNotMissed) {
   compare(dusty, effectBit(Effect::Rayleigh), 1e-6);
 }
 
-TEST_F(EffectsTest, ImagesThatStayAreThoseOfWhatIsOn) {
+TEST_F(EffectsTest, PersistentImagesMatchEnabledEffects) {
   const struct {
-    EffectFlags without;
+    EffectFlags disabledEffects;
     uint64_t images;
   } cases[] = {{0, 3}, {kMie, 2}, {kMultiple, 1}, {kMie | kMultiple, 1}, {kReflection, 3}};
   for (const auto& each : cases) {
     const ResourceReport before = report();
-    Tables* made = bake(preset("earth"), each.without);
+    Tables* made = bake(preset("earth"), each.disabledEffects);
     ASSERT_NE(made, nullptr);
     finishFrames(context());
-    EXPECT_EQ(report().images - before.images, each.images) << each.without;
-    const bool multiple = (each.without & kMultiple) == 0;
+    EXPECT_EQ(report().images - before.images, each.images) << each.disabledEffects;
+    const bool multiple = (each.disabledEffects & kMultiple) == 0;
     EXPECT_EQ(imageOf(made, kTableMoments).name != nullptr, multiple);
-    const bool source = multiple && (each.without & kMie) == 0;
+    const bool source = multiple && (each.disabledEffects & kMie) == 0;
     EXPECT_EQ(imageOf(made, kTableSource).name != nullptr, source);
     EXPECT_FALSE(probeAll(queries(), made).empty());
     destroyTables(made);
@@ -117,21 +118,21 @@ TEST_F(EffectsTest, ImagesThatStayAreThoseOfWhatIsOn) {
   }
 }
 
-TEST_F(EffectsTest, APictureOfTheSkyIsTheSameWithoutTheRest) {
+TEST_F(EffectsTest, SkyIsUnchangedByDisabledViewEffects) {
   const EyeCamera camera =
       cameraFromGeodetic(preset("earth"), 0.8, 0.2, 500.0, 1.0, radians(50.0), 0.0, radians(40.0));
   Vec sun;
   sunDirection(0.8, 0.2, radians(20.0), radians(190.0), sun.data());
   const FrameState draw = makeDraw(camera, sun, {48, 32});
-  for (const bool sliced : {false, true}) {
+  for (const bool fromLut : {false, true}) {
     ViewDesc desc = viewDesc();
-    desc.sky = sliced ? SkyMethod::Lut : SkyMethod::Integrate;
+    desc.sky = fromLut ? SkyMethod::Lut : SkyMethod::Integrate;
     View* const whole = makeView(desc);
     desc.disabledEffects = kViewEffects;
     View* const part = makeView(desc);
-    if (sliced) recordSlice(whole, tables(), draw);
+    if (fromLut) recordViewLuts(whole, tables(), draw);
     const Picture a = picture(whole, tables(), draw);
-    if (sliced) recordSlice(part, tables(), draw);
+    if (fromLut) recordViewLuts(part, tables(), draw);
     EXPECT_EQ(a.data, picture(part, tables(), draw).data);
   }
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/sky/sky_fixture.h"
+#include "tests/passes/sky/sky_fixture.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -48,22 +48,25 @@ class EffectQueryTest : public SkyTest {
 TEST_F(EffectQueryTest, TheCpuAnswersWhatTheDeviceAnswers) {
   const std::vector<ProbeQuery> asked = queries();
   const auto count = static_cast<uint32_t>(asked.size());
-  for (const EffectFlags without : {kMie, kMultiple, kMie | kMultiple, kIrradiance,
-                                    kIrradiance | kReflection, kTableEffects & ~kMultiple}) {
+  for (const EffectFlags disabledEffects :
+       {kMie, kMultiple, kMie | kMultiple, kIrradiance, kIrradiance | kReflection,
+        kTableEffects & ~kMultiple}) {
     TableDesc desc;
     desc.quality = Quality::Draft;
     desc.cpuQueries = CpuQueries::All;
-    desc.disabledEffects = without;
+    desc.disabledEffects = disabledEffects;
     // Something must be there to scatter.
-    if ((without & effectBit(Effect::Rayleigh)) != 0) desc.disabledEffects &= ~effectBit(Effect::Rayleigh);
+    if ((disabledEffects & effectBit(Effect::Rayleigh)) != 0)
+      desc.disabledEffects &= ~effectBit(Effect::Rayleigh);
     Tables* tables = nullptr;
     ASSERT_EQ(createTables(context(), preset("earth"), desc, &tables), Status::Ok) << message();
     bakeAll(device(), tables);
-    const bool multiple = hasEffect(without, Effect::MultipleScattering);
+    const bool multiple = hasEffect(disabledEffects, Effect::MultipleScattering);
     const auto has = [&](TableId id) { return imageOf(tables, id).name != nullptr; };
     EXPECT_TRUE(has(kTableOpticalDepth));
-    EXPECT_EQ(has(kTableMoments), multiple) << without;
-    EXPECT_EQ(has(kTableSource), multiple && hasEffect(without, Effect::Mie)) << without;
+    EXPECT_EQ(has(kTableMoments), multiple) << disabledEffects;
+    EXPECT_EQ(has(kTableSource), multiple && hasEffect(disabledEffects, Effect::Mie))
+        << disabledEffects;
     const uint64_t next = device().skipFrame();
     ASSERT_EQ(advanceFrame(context(), next, next - 1), Status::Ok) << message();
     const std::vector<ProbeAnswer> device = probeAll(asked, tables);
@@ -82,10 +85,11 @@ TEST_F(EffectQueryTest, TheCpuAnswersWhatTheDeviceAnswers) {
       expectSame(device[i].sky, cpu[i].sky, &most);
     }
     std::printf("without 0x%02x: %.1e\n", desc.disabledEffects, most);
-    EXPECT_LT(most, 5e-5) << without;
-    EXPECT_GT(light, 0.0) << without;
+    EXPECT_LT(most, 5e-5) << disabledEffects;
+    EXPECT_GT(light, 0.0) << disabledEffects;
     // E of the sky is there if it was baked.
-    EXPECT_EQ(sky > 0.0, multiple && hasEffect(without, Effect::GroundIrradiance)) << without;
+    EXPECT_EQ(sky > 0.0, multiple && hasEffect(disabledEffects, Effect::GroundIrradiance))
+        << disabledEffects;
     destroyTables(tables);
   }
 }

@@ -1,5 +1,5 @@
 // What is left out is refused in a sentence, and nothing is recorded of it.
-#include "tests/shafts/shaft_fixture.h"
+#include "tests/passes/light_shafts/light_shaft_fixture.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -10,7 +10,7 @@ constexpr EffectFlags kMie = effectBit(Effect::Mie), kGround = effectBit(Effect:
                       kAir = effectBit(Effect::AerialPerspective);
 constexpr VkExtent2D kExtent = {24, 16};
 
-class EffectRefusalsTest : public ShaftTest {
+class EffectRefusalsTest : public LightShaftTest {
  protected:
   FrameState drawAt(double altitude, double pitch, double discRadius = 0.0) {
     FrameState draw = drawFrom({altitude, 0, 0}, 90, pitch, 40, kExtent, 15, 90);
@@ -24,7 +24,8 @@ class EffectRefusalsTest : public ShaftTest {
     message().clear();
   }
 
-  void expectSkyRefused(View* view, const Tables* tables, const FrameState& draw, const char* parts) {
+  void expectSkyRefused(View* view, const Tables* tables, const FrameState& draw,
+                        const char* parts) {
     run([&](VkCommandBuffer commands) {
       expectRefused(testing::recordSky(view, commands, tables, draw), parts);
       // One sentence is enough.
@@ -46,24 +47,24 @@ class EffectRefusalsTest : public ShaftTest {
     EXPECT_EQ(made, nullptr) << parts;
   }
 
-  ViewDesc without(EffectFlags effects) {
+  ViewDesc disabledEffects(EffectFlags effects) {
     ViewDesc desc = viewDesc();
     desc.disabledEffects = effects;
     return desc;
   }
 
   /// Of a host's depth, whose own view is as small as may be.
-  static ShaftSetup sceneSetup() {
-    ShaftSetup setup;
-    setup.shafts = setup.sliced = false;
-    setup.without = kViewEffects;
+  static LightShaftSetup sceneSetup() {
+    LightShaftSetup setup;
+    setup.shafts = setup.fromLut = false;
+    setup.disabledEffects = kViewEffects;
     return setup;
   }
-  const ShaftSetup scene_ = sceneSetup();
+  const LightShaftSetup scene_ = sceneSetup();
 
   /// Over the depth of a scene, with both LUTs.
   ViewDesc sceneDesc(EffectFlags effects) {
-    ViewDesc desc = without(effects);
+    ViewDesc desc = disabledEffects(effects);
     desc.depth = DepthConvention::Reversed;
     desc.sceneDepthFormat = scene_.depthFormat;
     desc.sky = SkyMethod::Lut;
@@ -73,10 +74,10 @@ class EffectRefusalsTest : public ShaftTest {
   FrameDesc sceneFrame(const FrameState& draw) { return frameOf(rigOf(scene_, kExtent), draw); }
 };
 
-TEST_F(EffectRefusalsTest, DrawsThatMaySeeWhatAViewIsWithout) {
-  View* const noGround = makeView(without(kGround));
-  View* const noDisc = makeView(without(kDisc));
-  View* const noSpace = makeView(without(kSpace));
+TEST_F(EffectRefusalsTest, DrawsThatNeedDisabledEffectsAreRefused) {
+  View* const noGround = makeView(disabledEffects(kGround));
+  View* const noDisc = makeView(disabledEffects(kDisc));
+  View* const noSpace = makeView(disabledEffects(kSpace));
   ResourceReport start, end;
   resourceReport(context(), &start);
   expectSkyRefused(noGround, baked, drawAt(500, -10), "see the ground|Effect::Ground");
@@ -138,13 +139,12 @@ TEST_F(EffectRefusalsTest, LutsOfThisFrameAreWanted) {
   TargetDesc targetDesc;
   targetDesc.extent = kExtent;
   Target target(device(), targetDesc);
-  const Picture seen = target.draw([&](VkCommandBuffer commands) {
-    return alpenglow::recordSky(view, commands) == Status::Ok;
-  });
+  const Picture seen = target.draw(
+      [&](VkCommandBuffer commands) { return alpenglow::recordSky(view, commands) == Status::Ok; });
   EXPECT_EQ(badValue(seen), "") << message();
 }
 
-TEST_F(EffectRefusalsTest, ViewsAndTablesAreWithoutTheSame) {
+TEST_F(EffectRefusalsTest, DisabledEffectsOfViewsAndTablesMustAgree) {
   Tables* clear = nullptr;
   TableDesc clearDesc;
   clearDesc.quality = Quality::Draft;
@@ -152,13 +152,13 @@ TEST_F(EffectRefusalsTest, ViewsAndTablesAreWithoutTheSame) {
   ASSERT_EQ(createTables(context(), preset("earth"), clearDesc, &clear), Status::Ok) << message();
   bakeAll(device(), clear);
   const char* const sentence = "FrameDesc::tables|disabledEffects|create a view for these";
-  View* const whole = makeView(without(kViewEffects), baked);
-  View* const part = makeView(without(kViewEffects), clear);
+  View* const whole = makeView(disabledEffects(kViewEffects), baked);
+  View* const part = makeView(disabledEffects(kViewEffects), clear);
   // Those of the tables may be named again.
-  View* const named = makeView(without(kMie | kViewEffects), clear);
+  View* const named = makeView(disabledEffects(kMie | kViewEffects), clear);
   EXPECT_EQ(part->picture().disabledEffects, kMie | kViewEffects);
   EXPECT_EQ(named->picture().disabledEffects, kMie | kViewEffects);
-  expectViewRefused(baked, without(kMie | kViewEffects),
+  expectViewRefused(baked, disabledEffects(kMie | kViewEffects),
                     "ViewDesc::disabledEffects is|the tables lack");
   expectSkyRefused(whole, clear, drawAt(500, 40), sentence);
   expectSkyRefused(part, baked, drawAt(500, 40), sentence);
@@ -175,13 +175,15 @@ TEST_F(EffectRefusalsTest, ViewsAndTablesAreWithoutTheSame) {
 }
 
 TEST_F(EffectRefusalsTest, DescriptionsThatMakeNoSense) {
-  ViewDesc desc = without(kSpace);
+  ViewDesc desc = disabledEffects(kSpace);
   desc.projection = Projection::Orthographic;
   expectViewRefused(baked, desc, "Effect::SpaceViews|orthographic");
-  expectViewRefused(baked, without(kAir), "ViewDesc::disabledEffects is 0x100|kViewEffects");
+  expectViewRefused(baked, disabledEffects(kAir),
+                    "ViewDesc::disabledEffects is 0x100|kViewEffects");
   Tables* standard = nullptr;
   ASSERT_EQ(createTables(context(), preset("earth"), smallTables(), &standard), Status::Ok);
-  expectViewRefused(standard, without(kMie), "ViewDesc::disabledEffects is 0x2|the tables lack");
+  expectViewRefused(standard, disabledEffects(kMie),
+                    "ViewDesc::disabledEffects is 0x2|the tables lack");
   destroyTables(standard);
 
   TableDesc tables;
@@ -196,7 +198,7 @@ TEST_F(EffectRefusalsTest, DescriptionsThatMakeNoSense) {
   expectTablesRefused(tables, "Solver::Standard|TableDesc::disabledEffects");
 }
 
-TEST_F(EffectRefusalsTest, ShaftsAreWithoutWhatTheirViewIs) {
+TEST_F(EffectRefusalsTest, DisabledEffectsOfShaftsAndViewMustAgree) {
   Tables* clear = nullptr;
   TableDesc clearDesc;
   clearDesc.quality = Quality::Draft;
@@ -206,11 +208,11 @@ TEST_F(EffectRefusalsTest, ShaftsAreWithoutWhatTheirViewIs) {
     ViewDesc desc = sceneDesc(effects);
     desc.lightShafts.method = LightShaftMethod::LightVolume;
     desc.lightShafts.shadowMapSize = 64;
-    for (const Tables* tables : {static_cast<const Tables*>(baked), static_cast<const Tables*>(clear)}) {
+    for (const Tables* tables :
+         {static_cast<const Tables*>(baked), static_cast<const Tables*>(clear)}) {
       View* made = nullptr;
       ASSERT_EQ(createView(context(), tables, desc, &made), Status::Ok) << message();
-      EXPECT_EQ(made->lightShafts().desc().disabledEffects,
-                effects | (tables == clear ? kMie : 0));
+      EXPECT_EQ(made->lightShafts().desc().disabledEffects, effects | (tables == clear ? kMie : 0));
       destroyView(made);
     }
     desc.disabledEffects |= kAir;

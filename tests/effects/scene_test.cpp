@@ -1,9 +1,9 @@
-// The air over a host's scene, with light shafts, from tables and views without effects.
+// The atmosphere over a host's scene, with light shafts, from tables and views without effects.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "tests/shafts/shaft_fixture.h"
+#include "tests/passes/light_shafts/light_shaft_fixture.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -12,19 +12,19 @@ constexpr EffectFlags kMie = effectBit(Effect::Mie),
                       kGroundAndDisc = effectBit(Effect::Ground) | effectBit(Effect::SunDisc);
 constexpr VkExtent2D kExtent = {48, 32};
 
-class EffectSceneTest : public ShaftTest {
+class EffectSceneTest : public LightShaftTest {
  protected:
   void SetUp() override {
-    ShaftTest::SetUp();
+    LightShaftTest::SetUp();
     addCaster(
         reference::test::box(reference::Vector(0, 1500, -600), reference::Vector(2000, 2500, 600)));
     view_ = drawFrom({50, 0, 0}, 90, 50, 60, kExtent, 30, 140);
   }
 
-  ShaftPicture seen(EffectFlags without, bool sliced, bool shafts) {
-    ShaftSetup setup;
-    setup.without = without;
-    setup.sliced = sliced;
+  LightShaftPicture seen(EffectFlags disabledEffects, bool fromLut, bool shafts) {
+    LightShaftSetup setup;
+    setup.disabledEffects = disabledEffects;
+    setup.fromLut = fromLut;
     setup.shafts = shafts;
     setup.shadowMapSize = 256;
     setup.meshSize = 128;
@@ -47,8 +47,8 @@ class EffectSceneTest : public ShaftTest {
     return most;
   }
 
-  void expectShadow(const Picture& shaded, bool sliced) {
-    const Picture sunny = seen(kViewEffects, sliced, false).light;
+  void expectShadow(const Picture& shaded, bool fromLut) {
+    const Picture sunny = seen(kViewEffects, fromLut, false).light;
     EXPECT_GT(difference(shaded, sunny), 0.05) << "The shadow is not in the picture.";
   }
 
@@ -56,7 +56,7 @@ class EffectSceneTest : public ShaftTest {
 };
 
 // Without aerosols the whole tables have them not either; molecules ask for fewer harmonics.
-TEST_F(EffectSceneTest, ClearAirIsTheSameWithoutAerosols) {
+TEST_F(EffectSceneTest, AbsentAerosolsDoNotChangeThePicture) {
   parameters.mie.present = false;
   Tables* const whole = tables("earth, black ground, clear", parameters);
   TableDesc desc;
@@ -66,23 +66,23 @@ TEST_F(EffectSceneTest, ClearAirIsTheSameWithoutAerosols) {
   parameters.mie.present = true;
   ASSERT_EQ(createTables(context(), parameters, desc, &part), Status::Ok) << message();
   bakeAll(device(), part);
-  for (const bool sliced : {true, false}) {
+  for (const bool fromLut : {true, false}) {
     baked = whole;
-    const Picture wanted = seen(kViewEffects, sliced, true).light;
-    expectShadow(wanted, sliced);
+    const Picture wanted = seen(kViewEffects, fromLut, true).light;
+    expectShadow(wanted, fromLut);
     baked = part;
-    const double most = difference(wanted, seen(kMie | kViewEffects, sliced, true).light);
-    std::printf("without aerosols, %s: %.2e\n", sliced ? "sliced" : "integrated", most);
+    const double most = difference(wanted, seen(kMie | kViewEffects, fromLut, true).light);
+    std::printf("without aerosols, %s: %.2e\n", fromLut ? "sliced" : "integrated", most);
     EXPECT_LT(most, 1e-5);
   }
   destroyTables(part);
 }
 
-TEST_F(EffectSceneTest, FromInsideNothingIsMissedWithoutSpace) {
-  for (const bool sliced : {true, false}) {
-    const Picture wanted = seen(kGroundAndDisc, sliced, true).light;
-    const double most = difference(wanted, seen(kViewEffects, sliced, true).light);
-    std::printf("without space, %s: %.2e\n", sliced ? "sliced" : "integrated", most);
+TEST_F(EffectSceneTest, DisablingSpaceViewsKeepsPicturesFromInside) {
+  for (const bool fromLut : {true, false}) {
+    const Picture wanted = seen(kGroundAndDisc, fromLut, true).light;
+    const double most = difference(wanted, seen(kViewEffects, fromLut, true).light);
+    std::printf("without space, %s: %.2e\n", fromLut ? "sliced" : "integrated", most);
     EXPECT_LT(most, 1e-5);
   }
 }

@@ -1,7 +1,7 @@
 // What tables are without is made by nobody: pipelines, images, memory and dispatches of a bake.
-#include "atmosphere/model/table_limits.h"
-#include "tests/bake/bake_fixture.h"
-#include "tests/sky/sky_fixture.h"
+#include <alpenglow/table_limits.h>
+#include "tests/passes/sky/sky_fixture.h"
+#include "tests/tables/bake_fixture.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -29,8 +29,8 @@ constexpr uint64_t kTexel = 16, kScalar = 4;
 constexpr uint64_t kNodesR = kTinySettings.nodesR, kNodesMuS = kTinySettings.nodesMuS,
                    kNodes = kNodesR * kNodesMuS, kModes = kTinySettings.degree + 1,
                    kHarmonics = kModes * (kModes + 1) / 2,
-                   kRings =
-                       kTinySettings.zenithsSky + kTinySettings.zenithsLimb + kTinySettings.zenithsGround;
+                   kRings = kTinySettings.zenithsSky + kTinySettings.zenithsLimb +
+                            kTinySettings.zenithsGround;
 
 uint64_t sourceBytes() {
   return bytesOf(kTinySettings.sourceGamma * kTinySettings.sourcePsi, kNodesMuS, kNodesR, kTexel);
@@ -46,7 +46,7 @@ uint64_t nodeBytes(uint64_t layers) { return bytesOf(kNodesMuS, kNodesR * layers
 class TableCostsTest : public DeviceTest {
  protected:
   /// In a context of its own, whose pipelines are all new.
-  TableCost cost(EffectFlags without) {
+  TableCost cost(EffectFlags disabledEffects) {
     Context* context = nullptr;
     EXPECT_EQ(createContext(contextDesc(), &context), Status::Ok) << lastDiagnostic();
     const auto report = [&] {
@@ -58,8 +58,8 @@ class TableCostsTest : public DeviceTest {
     TableDesc desc;
     desc.sizes = kTinySettings;
     desc.format = TableFormat::Float;
-    desc.disabledEffects = without;
-    desc.orders = hasEffect(without, Effect::MultipleScattering) ? 4 : 0;
+    desc.disabledEffects = disabledEffects;
+    desc.orders = hasEffect(disabledEffects, Effect::MultipleScattering) ? 4 : 0;
     const ResourceReport start = report();
     Tables* tables = nullptr;
     EXPECT_EQ(createTables(context, preset("earth"), desc, &tables), Status::Ok)
@@ -67,10 +67,10 @@ class TableCostsTest : public DeviceTest {
     const ResourceReport made = report();
     if (tables != nullptr) bakeAll(device(), tables);
     const ResourceReport end = report();
-    EXPECT_EQ(end.pipelines, made.pipelines) << without;
-    EXPECT_EQ(end.draws, start.draws) << without;
+    EXPECT_EQ(end.pipelines, made.pipelines) << disabledEffects;
+    EXPECT_EQ(end.draws, start.draws) << disabledEffects;
     destroyTables(tables);
-    EXPECT_EQ(report().bytes, start.bytes) << without;
+    EXPECT_EQ(report().bytes, start.bytes) << disabledEffects;
     destroyContext(context);
     return {made.pipelines - start.pipelines,
             made.shaderVariants - start.shaderVariants,
@@ -99,7 +99,7 @@ class TableCostsTest : public DeviceTest {
 };
 
 // Four orders: T, Q, Y, W; three times L F M R H N I J; the sums N I J.
-TEST_F(TableCostsTest, NothingIsMissingFromTheWhole) {
+TEST_F(TableCostsTest, DefaultTablesHaveEveryObject) {
   EXPECT_EQ(whole().pipelines, 19u);
   EXPECT_EQ(whole().variants, 19u);
   EXPECT_EQ(whole().dispatches, 4u + 3u * 8u + 3u);
@@ -108,7 +108,7 @@ TEST_F(TableCostsTest, NothingIsMissingFromTheWhole) {
 }
 
 // They are terms of a sum: no object is theirs. Their text is: text_test.cpp.
-TEST_F(TableCostsTest, MoleculesAndAbsorptionOwnNoObject) {
+TEST_F(TableCostsTest, MoleculesAndAbsorptionCostNoObjects) {
   expectGone(whole(), cost(kRayleigh), {});
   expectGone(whole(), cost(kAbsorption), {});
 }
@@ -116,7 +116,7 @@ TEST_F(TableCostsTest, MoleculesAndAbsorptionOwnNoObject) {
 // W, R, H, J (of the first order and of others) and "J sum"; the sources of all, of an order and
 // their sum, rotations, turned harmonics, modes of sources, the aerosols' part of order 1; rows of
 // the associated Legendre functions at the sources' angles.
-TEST_F(TableCostsTest, AerosolsTakeTheirSourcesAlong) {
+TEST_F(TableCostsTest, DisabledAerosolsRemoveTheirSources) {
   const uint64_t rows = kRings * 3 * kNodesR;
   TableCost gone;
   gone.pipelines = gone.variants = 6;
@@ -132,7 +132,7 @@ TEST_F(TableCostsTest, AerosolsTakeTheirSourcesAlong) {
 }
 
 // Left is T: one image, pipeline and dispatch, whatever else is left out.
-TEST_F(TableCostsTest, WithoutMultipleScatteringTheOpticalDepthsStay) {
+TEST_F(TableCostsTest, SingleScatteringKeepsOpticalDepthsOnly) {
   const TableCost single = cost(kMultiple), air = cost(kMultiple | kMie);
   EXPECT_EQ(single.pipelines, 1u);
   EXPECT_EQ(single.variants, 1u);
@@ -146,7 +146,7 @@ TEST_F(TableCostsTest, WithoutMultipleScatteringTheOpticalDepthsStay) {
   expectGone(single, air, {});
 }
 
-TEST_F(TableCostsTest, TheGroundTakesItsOwn) {
+TEST_F(TableCostsTest, DisabledGroundEffectsRemoveTheirObjects) {
   // The ground's part of order 1.
   TableCost gone;
   gone.images = 1;

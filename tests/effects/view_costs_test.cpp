@@ -1,9 +1,9 @@
 // What views are without is made by nobody: pipelines, images and memory, and a frame's dispatches
 // and draws.
-#include "atmosphere/bake/table_set.h"
-#include "atmosphere/sky/view_cost.h"
+#include "atmosphere/passes/view_cost.h"
+#include "atmosphere/tables/table_set.h"
 #include "atmosphere/view/view_desc.h"
-#include "tests/shafts/shaft_fixture.h"
+#include "tests/passes/light_shafts/light_shaft_fixture.h"
 
 namespace alpenglow::testing {
 namespace {
@@ -16,15 +16,15 @@ constexpr VkExtent2D kExtent = {24, 16};
 
 /// An image of a draft's sky-view LUT, and one of an aerial-perspective LUT.
 constexpr uint64_t kSkyLut = uint64_t{48} * 64 * 16;
-constexpr uint64_t kAirLut =
-    uint64_t{physics_f32::kAirColumns} * physics_f32::kAirRows * physics_f32::kAirDistances * 16;
+constexpr uint64_t kAirLut = uint64_t{physics_f32::kAerialColumns} * physics_f32::kAerialRows *
+                             physics_f32::kAerialDistances * 16;
 
 /// What making a view adds.
 struct Added {
   uint64_t pipelines, images, bytes;
 };
 
-class ViewCostsTest : public ShaftTest {
+class ViewCostsTest : public LightShaftTest {
  protected:
   ResourceReport reportOf(Context* context) {
     finishFrames(context);
@@ -36,7 +36,7 @@ class ViewCostsTest : public ShaftTest {
   /// In a context of its own that can't bake.
   void expectAdded(const ViewDesc& desc, const Added& expected) {
     ContextDesc plain = contextDesc();
-    plain.capabilities = kCapabilitySky | kCapabilityAir;
+    plain.capabilities = kCapabilitySky | kCapabilityAerialPerspective;
     Context* own = nullptr;
     ASSERT_EQ(createContext(plain, &own), Status::Ok) << lastDiagnostic();
     TableDesc draft;
@@ -50,12 +50,13 @@ class ViewCostsTest : public ShaftTest {
     const ResourceReport after = reportOf(own);
     EXPECT_EQ(after.pipelines - before.pipelines, expected.pipelines) << desc.disabledEffects;
     // Not one of them is another's.
-    EXPECT_EQ(after.shaderVariants - before.shaderVariants, expected.pipelines) << desc.disabledEffects;
+    EXPECT_EQ(after.shaderVariants - before.shaderVariants, expected.pipelines)
+        << desc.disabledEffects;
     EXPECT_EQ(after.images - before.images, expected.images) << desc.disabledEffects;
     EXPECT_EQ(after.bytes - before.bytes, expected.bytes) << desc.disabledEffects;
     EXPECT_EQ(after.buffers, before.buffers);
     const PlanCost told =
-        sky::viewCost(tables->desc(), view::resolve(tables->desc(), desc).picture);
+        passes::viewCost(tables->desc(), view::resolve(tables->desc(), desc).picture);
     EXPECT_EQ(told.pipelines, expected.pipelines) << desc.disabledEffects;
     EXPECT_EQ(told.images, expected.images) << desc.disabledEffects;
     EXPECT_EQ(told.bytes, expected.bytes) << desc.disabledEffects;
@@ -64,8 +65,8 @@ class ViewCostsTest : public ShaftTest {
     destroyContext(own);
   }
 
-  ViewDesc without(EffectFlags effects, SkyMethod sky,
-                   AerialPerspective air = AerialPerspective::Off) {
+  ViewDesc disabledEffects(EffectFlags effects, SkyMethod sky,
+                           AerialPerspective air = AerialPerspective::Off) {
     ViewDesc desc = viewDesc();
     desc.disabledEffects = effects;
     desc.sky = sky;
@@ -90,15 +91,15 @@ class ViewCostsTest : public ShaftTest {
   }
 };
 
-// Six ways of pixels: two of ground, three of the disc, two without air; the LUT's own besides. With a
-// LUT nothing that integrates is compiled.
-TEST_F(ViewCostsTest, PixelsThatAViewNeverDrawsHaveNoPipeline) {
-  expectAdded(without(0, kLut), {7, 2, 2 * kSkyLut});
-  expectAdded(without(0, kIntegrate), {6, 0, 0});
-  expectAdded(without(kGround, kLut), {5, 2, 2 * kSkyLut});
-  expectAdded(without(kDisc, kLut), {4, 2, 2 * kSkyLut});
-  expectAdded(without(kGround | kDisc, kIntegrate), {2, 0, 0});
-  expectAdded(without(kViewEffects, kIntegrate), {1, 0, 0});
+// Six ways of pixels: two of ground, three of the disc, two without air; the LUT's own besides.
+// With a LUT nothing that integrates is compiled.
+TEST_F(ViewCostsTest, PixelKindsNeverDrawnHaveNoPipeline) {
+  expectAdded(disabledEffects(0, kLut), {7, 2, 2 * kSkyLut});
+  expectAdded(disabledEffects(0, kIntegrate), {6, 0, 0});
+  expectAdded(disabledEffects(kGround, kLut), {5, 2, 2 * kSkyLut});
+  expectAdded(disabledEffects(kDisc, kLut), {4, 2, 2 * kSkyLut});
+  expectAdded(disabledEffects(kGround | kDisc, kIntegrate), {2, 0, 0});
+  expectAdded(disabledEffects(kViewEffects, kIntegrate), {1, 0, 0});
 }
 
 // Of tables that have no LUT from space each comes twice, but for views that never go there.
@@ -107,7 +108,7 @@ TEST_F(ViewCostsTest, StandardIntegratesAboveTheAir) {
   ASSERT_EQ(createTables(context(), preset("earth"), smallTables(), &standard), Status::Ok)
       << message();
   for (const EffectFlags effects : {EffectFlags{0}, kSpace}) {
-    const ViewDesc desc = without(effects, kLut);
+    const ViewDesc desc = disabledEffects(effects, kLut);
     const ResourceReport before = reportOf(context());
     View* made = nullptr;
     ASSERT_EQ(createView(context(), standard, desc, &made), Status::Ok) << message();
@@ -115,46 +116,46 @@ TEST_F(ViewCostsTest, StandardIntegratesAboveTheAir) {
     destroyView(made);
     EXPECT_EQ(pipelines, effects == 0 ? 13u : 5u);
     const PictureDesc picture = view::resolve(standard->desc(), desc).picture;
-    EXPECT_EQ(sky::viewCost(standard->desc(), picture).pipelines, pipelines);
+    EXPECT_EQ(passes::viewCost(standard->desc(), picture).pipelines, pipelines);
   }
   destroyTables(standard);
 }
 
 // Cameras inside need half of the rays.
 TEST_F(ViewCostsTest, WithoutSpaceLutsAreHalfAsLarge) {
-  expectAdded(without(kSpace, kLut), {5, 2, kSkyLut});
-  expectAdded(without(kViewEffects, kLut, AerialPerspective::On),
+  expectAdded(disabledEffects(kSpace, kLut), {5, 2, kSkyLut});
+  expectAdded(disabledEffects(kViewEffects, kLut, AerialPerspective::On),
               {4, 5, kSkyLut + 3 * kAirLut / 2});
 }
 
 TEST_F(ViewCostsTest, WhatTablesAreWithoutALutIsWithout) {
-  expectAdded(without(kMie | kViewEffects, kLut), {2, 1, kSkyLut / 2});
-  expectAdded(without(kMultiple | kViewEffects, kLut), {2, 2, kSkyLut});
+  expectAdded(disabledEffects(kMie | kViewEffects, kLut), {2, 1, kSkyLut / 2});
+  expectAdded(disabledEffects(kMultiple | kViewEffects, kLut), {2, 2, kSkyLut});
 }
 
 // From its LUT: three images, what fills them, what looks light up.
 TEST_F(ViewCostsTest, AirInFrontOfASceneOwnsItsLut) {
   constexpr EffectFlags kPlain = kGround | kDisc;
-  expectAdded(without(kPlain, kIntegrate, AerialPerspective::Integrate), {2 + 1, 0, 0});
-  expectAdded(without(kPlain, kLut, AerialPerspective::On),
+  expectAdded(disabledEffects(kPlain, kIntegrate, AerialPerspective::Integrate), {2 + 1, 0, 0});
+  expectAdded(disabledEffects(kPlain, kLut, AerialPerspective::On),
               {3 + 2, 2 + 3, 2 * kSkyLut + 3 * kAirLut});
-  expectAdded(without(kPlain, kLut, AerialPerspective::Integrate), {3 + 1, 2, 2 * kSkyLut});
-  expectAdded(without(kPlain, kIntegrate, AerialPerspective::On), {2 + 2, 3, 3 * kAirLut});
-  expectAdded(without(kPlain, kLut), {3, 2, 2 * kSkyLut});
+  expectAdded(disabledEffects(kPlain, kLut, AerialPerspective::Integrate), {3 + 1, 2, 2 * kSkyLut});
+  expectAdded(disabledEffects(kPlain, kIntegrate, AerialPerspective::On), {2 + 2, 3, 3 * kAirLut});
+  expectAdded(disabledEffects(kPlain, kLut), {3, 2, 2 * kSkyLut});
 }
 
-// The shadow map, blocks, the surface with and without a LUT; map; their frame and blocks. Sums follow
-// with the first frame, which knows the extent.
-TEST_F(ViewCostsTest, ShaftsHaveTheirOwn) {
+// The shadow map, blocks, the surface with and without a LUT; map; their frame and blocks. Sums
+// follow with the first frame, which knows the extent.
+TEST_F(ViewCostsTest, LightShaftsHaveTheirOwn) {
   ContextDesc plain = contextDesc();
-  plain.capabilities = kCapabilitySky | kCapabilityAir | kCapabilityShafts;
+  plain.capabilities = kCapabilitySky | kCapabilityAerialPerspective | kCapabilityLightShafts;
   Context* own = nullptr;
   ASSERT_EQ(createContext(plain, &own), Status::Ok) << lastDiagnostic();
   TableDesc draft;
   draft.quality = Quality::Draft;
   Tables* tables = nullptr;
   ASSERT_EQ(createTables(own, preset("earth"), draft, &tables), Status::Ok) << lastDiagnostic();
-  ViewDesc desc = without(kViewEffects, kIntegrate, AerialPerspective::Integrate);
+  ViewDesc desc = disabledEffects(kViewEffects, kIntegrate, AerialPerspective::Integrate);
   const ResourceReport start = reportOf(own);
   View* sunny = nullptr;
   ASSERT_EQ(createView(own, tables, desc, &sunny), Status::Ok) << lastDiagnostic();
@@ -180,13 +181,13 @@ TEST_F(ViewCostsTest, ShaftsHaveTheirOwn) {
   destroyContext(own);
 }
 
-TEST_F(ViewCostsTest, AFrameRecordsNothingOfWhatIsOff) {
+TEST_F(ViewCostsTest, DisabledEffectsRecordNothing) {
   addCaster(
       reference::test::box(reference::Vector(600, 1500, -200), reference::Vector(900, 1800, 200)));
   const FrameState looking = drawFrom({50, 0, 0}, 90, 50, 40, kExtent, 35, 200);
-  ShaftSetup shaded, plain;
+  LightShaftSetup shaded, plain;
   shaded.shadowMapSize = plain.shadowMapSize = 64;
-  shaded.without = plain.without = kViewEffects;
+  shaded.disabledEffects = plain.disabledEffects = kViewEffects;
   plain.shafts = false;
   rigOf(plain, kExtent);
   rigOf(shaded, kExtent);
@@ -198,19 +199,20 @@ TEST_F(ViewCostsTest, AFrameRecordsNothingOfWhatIsOff) {
   EXPECT_GE(made.bytes - before.bytes, 24u * 16 * 8);
   FrameState other = looking;
   other.camera.position_m[0] += 1.0;  // No LUT serves on.
-  View* const skyAlone = makeView(without(kViewEffects, kLut), baked);
-  const ResourceReport withShafts = frame([&] { draw(shaded, other); });
-  const ResourceReport withAir = frame([&] { draw(plain, looking); });
+  View* const skyAlone = makeView(disabledEffects(kViewEffects, kLut), baked);
+  const ResourceReport withLightShafts = frame([&] { draw(shaded, other); });
+  const ResourceReport withAerialPerspective = frame([&] { draw(plain, looking); });
   const ResourceReport sky = frame([&] {
-    recordSlice(skyAlone, baked, looking);
+    recordViewLuts(skyAlone, baked, looking);
     picture(skyAlone, baked, looking);
   });
   EXPECT_EQ(sky.dispatches, 1u);
   EXPECT_EQ(sky.draws, 1u);
-  EXPECT_EQ(withAir.dispatches - sky.dispatches, 1u) << "The LUT of aerial perspective.";
-  EXPECT_EQ(withAir.draws - sky.draws, 1u) << "The air.";
-  EXPECT_EQ(withShafts.dispatches - withAir.dispatches, 1u) << "Blocks.";
-  EXPECT_EQ(withShafts.draws - withAir.draws, 2u) << "Map and surface.";
+  EXPECT_EQ(withAerialPerspective.dispatches - sky.dispatches, 1u)
+      << "The LUT of aerial perspective.";
+  EXPECT_EQ(withAerialPerspective.draws - sky.draws, 1u) << "The atmosphere.";
+  EXPECT_EQ(withLightShafts.dispatches - withAerialPerspective.dispatches, 1u) << "Blocks.";
+  EXPECT_EQ(withLightShafts.draws - withAerialPerspective.draws, 2u) << "Map and surface.";
 }
 
 }  // namespace

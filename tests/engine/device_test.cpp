@@ -352,7 +352,7 @@ TEST_F(EngineDeviceTest, PushConstantsBeyondTheLimitAreRefused) {
             "bytes.");
 }
 
-TEST_F(EngineDeviceTest, ImagesAreCheckedBeforeVulkanIsAsked) {
+TEST_F(EngineDeviceTest, ImagesAreCheckedBeforeVulkanIsCalled) {
   ImageDesc good;
   good.format = VK_FORMAT_R32G32B32A32_SFLOAT;
   good.extent = {16, 16, 1};

@@ -373,7 +373,7 @@ TEST_F(GpuTest, OneBlockHoldsMappedBuffersOfSeveralAlignments) {
 
 TEST_F(GpuTest, AllocationCallbacksArePaired) {
   testing::CountingAllocator allocator;
-  DeviceDesc desc = deviceDesc(contextDesc());
+  DeviceDesc desc = alpenglow::testing::deviceDesc(contextDesc());
   desc.allocator = allocator.callbacks();
   engine::Device* counted = nullptr;
   ASSERT_EQ(engine::Device::create(desc, &counted), Status::Ok);
@@ -417,7 +417,7 @@ TEST_F(GpuTest, HostMemoryHookServesImages) {
     return result;
   };
   hooks.free = [](void* user, const MemoryRange&) { ++static_cast<Pool*>(user)->freed; };
-  DeviceDesc desc = deviceDesc(contextDesc());
+  DeviceDesc desc = alpenglow::testing::deviceDesc(contextDesc());
   desc.memory = &hooks;
   engine::Device* hooked = nullptr;
   ASSERT_EQ(engine::Device::create(desc, &hooked), Status::Ok);
@@ -442,7 +442,7 @@ TEST_F(GpuTest, HostMemoryHookServesImages) {
                                                                         pool.memory, nullptr);
 }
 
-TEST_F(GpuTest, ImpossibleImagesAreRefusedBeforeValidationSeesThem) {
+TEST_F(GpuTest, ImpossibleImagesAreRefusedBeforeVulkanIsCalled) {
   ImageDesc desc;
   desc.format = kHalf;
   desc.usage = VK_IMAGE_USAGE_STORAGE_BIT;
@@ -459,7 +459,7 @@ TEST_F(GpuTest, ImpossibleImagesAreRefusedBeforeValidationSeesThem) {
 }
 
 TEST_F(GpuTest, RequirementsOfThisDevice) {
-  FeatureSet needed = featureSet(device().enabled());
+  FeatureSet needed = alpenglow::testing::featureSet(device().enabled());
   std::string missing;
   const auto check = [&] {
     return checkPhysicalDevice(

@@ -1,5 +1,5 @@
 // A Vulkan of the tests' own: a table that records calls, hands out numbered handles, knows what is
-// alive, and fails where it is told to.
+// alive, and fails where a test asks for it.
 #pragma once
 
 #include <map>

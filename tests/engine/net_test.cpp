@@ -120,7 +120,7 @@ TEST_F(NetTest, ObjectThatOutlivesItsDeviceIsReported) {
   const Arena arena;
   std::unique_ptr<headless::Device> other = makeDevice();
   ASSERT_NE(other, nullptr);
-  engine::DeviceDesc desc = deviceDesc(other->contextDesc());
+  engine::DeviceDesc desc = alpenglow::testing::deviceDesc(other->contextDesc());
   desc.allocator = arena.callbacks();
   desc.debugNames = false;  // The driver would keep the name.
   engine::Device* context = nullptr;
@@ -136,7 +136,7 @@ class FixtureTest : public DeviceTest {
  protected:
   void provoke() {
     engine::Device* context = nullptr;
-    ASSERT_EQ(engine::Device::create(deviceDesc(contextDesc()), &context), Status::Ok);
+    ASSERT_EQ(engine::Device::create(alpenglow::testing::deviceDesc(contextDesc()), &context), Status::Ok);
     const VkDescriptorSetLayoutBinding twice[] = {
         {0, VK_DESCRIPTOR_TYPE_SAMPLER, 1, VK_SHADER_STAGE_ALL, nullptr},
         {0, VK_DESCRIPTOR_TYPE_SAMPLER, 1, VK_SHADER_STAGE_ALL, nullptr}};

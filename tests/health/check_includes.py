@@ -43,7 +43,8 @@ ROOMS = {
     "headless": (["engine/headless/"], "headless.api engine public"),
     # Headers for hosts.
     "public": (["atmosphere/include/alpenglow/"], "types.api"),
-    "types.api": (["atmosphere/include/alpenglow/types.h"], ""),
+    "types.api": (["atmosphere/include/alpenglow/types.h", "atmosphere/include/alpenglow/export.h",
+                   "engine/exceptions.h"], ""),
     "io.api": (["atmosphere/include/alpenglow/io/"], "public types.api"),
     "headless.api": (["engine/headless/include/"], "public types.api"),
     "cost.api": (["atmosphere/cost/include/"], "io.api public types.api"),
@@ -54,24 +55,6 @@ ROOMS = {
     "glsl/baselines": (["shaders/glsl/baselines/"], "glsl/common glsl/physics"),
     "glsl/common": (["shaders/glsl/common/"], "glsl/physics"),
     "glsl/physics": (["shaders/glsl/physics/"], ""),
-}
-
-# Folders and files that still have an old name or place: where they will be.
-ALIASES = {
-    "atmosphere/model/": "atmosphere/parameters/",
-    "atmosphere/models/": "atmosphere/baselines/",
-    "atmosphere/bake/": "atmosphere/tables/",
-    "atmosphere/sky/": "atmosphere/passes/",
-    "atmosphere/sky/camera": "atmosphere/camera/camera",
-    "atmosphere/sky/projection": "atmosphere/camera/projection",
-    "atmosphere/sky/parts": "atmosphere/camera/parts",
-    "atmosphere/shafts/": "atmosphere/passes/",
-    "atmosphere/shafts/adjacency": "atmosphere/mesh/adjacency",
-    "atmosphere/shafts/terrain_mesh": "atmosphere/mesh/terrain_mesh",
-    "shaders/glsl/models/": "shaders/glsl/baselines/",
-    "shaders/glsl/bake/": "shaders/glsl/tables/",
-    "shaders/glsl/sky/": "shaders/glsl/passes/",
-    "shaders/glsl/shafts/": "shaders/glsl/passes/",
 }
 
 # Known and wrong: (file, included file, why it is still so).
@@ -96,13 +79,7 @@ TOPS = ("engine", "atmosphere", "shaders", "samples")
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 
 
-def final(path):
-    old = max((p for p in ALIASES if path.startswith(p)), key=len, default=None)
-    return ALIASES[old] + path[len(old):] if old else path
-
-
 def room_of(path):
-    path = final(path)
     best = max(((prefix, room) for room, (prefixes, _) in ROOMS.items() for prefix in prefixes
                 if path.startswith(prefix)), key=lambda pair: len(pair[0]), default=None)
     return best[1] if best else None
@@ -226,18 +203,18 @@ def self_test():
         ("engine/device.cpp", '#include "engine/headless/impl.h"', True),
         ("atmosphere/tables/plan.h", '#include "engine/pipeline.h"', False),
         ("atmosphere/tables/plan.h", '#  include "atmosphere/passes/sky.h"', True),
-        ("atmosphere/bake/plan.h", '#include "atmosphere/sky/sky_slice.h"', True),
-        ("atmosphere/sky/camera.cpp", '#include "atmosphere/sky/sky_slice.h"', True),
-        ("atmosphere/sky/sky_slice.cpp", '#include "atmosphere/sky/camera_math.h"', False),
+        ("atmosphere/tables/bake_graph.h", '#include "atmosphere/passes/sky_view_lut.h"', True),
+        ("atmosphere/camera/camera.cpp", '#include "atmosphere/passes/sky_view_lut.h"', True),
+        ("atmosphere/passes/sky_view_lut.cpp", '#include "atmosphere/camera/camera_math.h"', False),
         ("atmosphere/io/json.cpp", '#include "atmosphere/parameters/limits.h"', True),
         ("atmosphere/io/json.cpp", "#include <nlohmann/json.hpp>", False),
-        ("atmosphere/plan/air.cpp", "#include <nlohmann/json.hpp>", True),
+        ("atmosphere/plan/medium.cpp", "#include <nlohmann/json.hpp>", True),
         ("atmosphere/include/alpenglow/view.h", "#include <alpenglow/io/file.h>", True),
         ("samples/common/gpu.h", '#include "samples/terrain/landscape.h"', True),
         ("samples/view/tone.frag", '#include "alpenglow/tone_map.glsl"', False),
         ("samples/view/tone.frag", '#include "physics/types.glsl"', True),
-        ("shaders/glsl/physics/path.glsl", '#include "medium.glsl"', False),
-        ("shaders/glsl/physics/path.glsl", '#include "passes/sky.glsl"', True),
+        ("shaders/glsl/physics/ray_segment.glsl", '#include "medium.glsl"', False),
+        ("shaders/glsl/physics/ray_segment.glsl", '#include "passes/sky.glsl"', True),
         ("shaders/glsl/common/ray_light.glsl", '#include "alpenglow/atmosphere.glsl"', True),
         ("samples/new/main.cpp", "", True),  # A folder that nobody has named.
     ]

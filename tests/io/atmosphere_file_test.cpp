@@ -5,7 +5,7 @@
 
 #include "temporary_folder.h"
 
-#include "tests/model/heard.h"
+#include "tests/parameters/heard.h"
 
 namespace alpenglow::io {
 namespace {
@@ -168,7 +168,7 @@ TEST(AtmosphereFile, BadJsonSaysWhere) {
   for (size_t length = 0; length + 2 < whole.size(); ++length) errorOf(whole.substr(0, length));
 }
 
-TEST(AtmosphereFile, APresetsNameWinsOverAFile) {
+TEST(AtmosphereFile, PresetNamesTakePrecedenceOverFiles) {
   test::TemporaryFolder folder;
   const std::string path = folder.write("mine.json", earth());
   ASSERT_TRUE(findAtmosphere(path));

@@ -109,7 +109,7 @@ TEST(WholeFile, ADescriptorForReadingIsRefused) {
   EXPECT_EQ(contentsOf(folder / "in"), "kept");
 }
 
-TEST(WholeFile, WhatOnlyTryingTellsIsToldEarly) {
+TEST(WholeFile, UnwritablePathsAreReportedEarly) {
   TemporaryFolder folder;
   folder.write("file", "x");
   for (const std::string& path :

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/model/heard.h"
+#include "tests/parameters/heard.h"
 
 namespace alpenglow::test {
 namespace {
@@ -107,29 +107,29 @@ SceneBalloon balloon(Maker* make) {
   return balloon;
 }
 
-SceneNeeds needs(Maker* make, const Scene& scene) {
-  SceneNeeds needs;
+SceneRequirements requirements(Maker* make, const Scene& scene) {
+  SceneRequirements requirements;
   if (make->chance()) {
     const double own = std::max(scene.camera.altitude_m, 0.0);
-    needs.altitude_m[0] = make->chance() ? own : own * make->number(0, 1);
-    needs.altitude_m[1] = make->chance() ? own : make->number(own, 1e12);
+    requirements.altitude_m[0] = make->chance() ? own : own * make->number(0, 1);
+    requirements.altitude_m[1] = make->chance() ? own : make->number(own, 1e12);
   }
   if (make->chance()) {
     const double own = scene.sun.elevation;
-    needs.sunElevation[0] = make->chance() ? own : std::min(own, make->angle(-90, 90));
-    needs.sunElevation[1] = make->chance() ? own : std::max(own, make->angle(-90, 90));
+    requirements.sunElevation[0] = make->chance() ? own : std::min(own, make->angle(-90, 90));
+    requirements.sunElevation[1] = make->chance() ? own : std::max(own, make->angle(-90, 90));
   }
-  if (make->chance()) needs.exposure = make->positive(1e-12, 1e12);
-  if (make->chance()) needs.error = make->number(1e-4, 1);
-  if (make->chance()) needs.budgetBytes = 1 + (uint64_t{make->whole(1u << 31)} << 18);
-  if (make->chance()) needs.budgetSeconds = make->positive(1e-6, 1e9);
-  return needs;
+  if (make->chance()) requirements.exposure = make->positive(1e-12, 1e12);
+  if (make->chance()) requirements.error = make->number(1e-4, 1);
+  if (make->chance()) requirements.budgetBytes = 1 + (uint64_t{make->whole(1u << 31)} << 18);
+  if (make->chance()) requirements.budgetSeconds = make->positive(1e-6, 1e9);
+  return requirements;
 }
 
 void chooseTables(Maker* make, Scene* scene) {
   scene->model = static_cast<SceneModel>(make->whole(6));
   const bool sampled = scene->model == SceneModel::ONeil || scene->model == SceneModel::Hillaire;
-  if (sampled && make->chance()) scene->modelSamples = 1 + make->whole(1024);
+  if (sampled && make->chance()) scene->modelStepCount = 1 + make->whole(1024);
   if (solverOf(scene->model)) return;
   if (make->chance()) scene->solver = make->chance() ? Solver::Moments : Solver::Standard;
   if (make->chance()) scene->orders = 1 + make->whole(1000);
@@ -155,8 +155,8 @@ Scene randomScene(std::mt19937_64* random, Angles angles) {
     scene.balloons.push_back(balloon(make));
   }
   if (make->chance()) scene.stars = SceneStars{make->chance() ? make->number(-1e6, 1e6) : 0.0};
-  if (make->chance()) scene.shafts = static_cast<SceneShafts>(make->whole(5));
-  if (make->chance()) scene.shaftSamples = 1 + make->whole(kMaxShaftSamples);
+  if (make->chance()) scene.shafts = static_cast<SceneLightShafts>(make->whole(5));
+  if (make->chance()) scene.lightShaftStepCount = 1 + make->whole(kMaxLightShaftSteps);
   if (make->chance()) scene.width = 1 + make->whole(kMaxPictureSide);
   if (make->chance()) scene.height = 1 + make->whole(kMaxPictureSide);
   if (make->chance()) scene.exposure = make->positive(1e-12, 1e12);
@@ -166,8 +166,8 @@ Scene randomScene(std::mt19937_64* random, Angles angles) {
     for (Force& force : scene.effects) force = static_cast<Force>(make->whole(3));
   }
   const Force shafts = scene.effects[static_cast<uint32_t>(Effect::LightShafts)];
-  if (shafts == Force::Off) scene.shafts = SceneShafts::Off;
-  if (make->chance()) scene.needs = needs(make, scene);
+  if (shafts == Force::Off) scene.shafts = SceneLightShafts::Off;
+  if (make->chance()) scene.requirements = requirements(make, scene);
   return scene;
 }
 

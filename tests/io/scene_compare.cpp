@@ -57,7 +57,7 @@ class Comparison {
   std::string first_;
 };
 
-void compareAir(Comparison* c, const Parameters& a, const Parameters& b) {
+void compareMedium(Comparison* c, const Parameters& a, const Parameters& b) {
   const auto& [bottom, top, waves, rayleigh, mie, absorption, albedo, sun, radius] = a;
   c->number("bottomRadius", bottom, b.bottomRadius_m);
   c->number("topRadius", top, b.topRadius_m);
@@ -128,7 +128,7 @@ void compareBalloon(Comparison* c, const SceneBalloon& a, const SceneBalloon& b)
   c->number("balloon.opacity", opacity, b.opacity);
 }
 
-void compareNeeds(Comparison* c, const SceneNeeds& a, const SceneNeeds& b) {
+void compareRequirements(Comparison* c, const SceneRequirements& a, const SceneRequirements& b) {
   const auto& [altitude, elevation, exposure, error, bytes, seconds] = a;
   const auto numbers = [c](auto name, double x, double y) { c->number(name, x, y); };
   const auto angles = [c](auto name, double x, double y) { c->angle(name, x, y); };
@@ -147,11 +147,11 @@ void compareNeeds(Comparison* c, const SceneNeeds& a, const SceneNeeds& b) {
 std::string sceneDifference(const Scene& a, const Scene& b, uint64_t angleSteps) {
   Comparison comparison(angleSteps);
   Comparison* c = &comparison;
-  const auto& [air, sun, camera, albedoMap, terrain, balloons, stars, shafts, shaftSamples, width,
-               height, exposure, toneMap, model, modelSamples, solver, orders, quality, effects,
-               needs] = a;
+  const auto& [air, sun, camera, albedoMap, terrain, balloons, stars, shafts, lightShaftStepCount,
+               width, height, exposure, toneMap, model, modelStepCount, solver, orders, quality,
+               effects, requirements] = a;
   const auto wholes = [c](auto name, auto x, auto y) { c->whole(name, x, y); };
-  compareAir(c, air, b.atmosphere);
+  compareMedium(c, air, b.atmosphere);
   compareView(c, sun, b.sun, camera, b.camera);
   c->text("albedoMap", albedoMap, b.albedoMap);
   c->optional("terrain", terrain, b.terrain,
@@ -165,20 +165,20 @@ std::string sceneDifference(const Scene& a, const Scene& b, uint64_t angleSteps)
     c->number(name, hours, y.siderealHours);
   });
   c->whole("shafts", shafts, b.shafts);
-  c->whole("shaftSamples", shaftSamples, b.shaftSamples);
+  c->whole("lightShaftStepCount", lightShaftStepCount, b.lightShaftStepCount);
   c->whole("width", width, b.width);
   c->whole("height", height, b.height);
   c->optional("exposure", exposure, b.exposure,
               [c](auto name, double x, double y) { c->number(name, x, y); });
   c->whole("toneMap", toneMap, b.toneMap);
   c->whole("model", model, b.model);
-  c->optional("modelSamples", modelSamples, b.modelSamples, wholes);
+  c->optional("modelStepCount", modelStepCount, b.modelStepCount, wholes);
   c->optional("solver", solver, b.solver, wholes);
   c->optional("orders", orders, b.orders, wholes);
   c->optional("quality", quality, b.quality, wholes);
   for (size_t i = 0; i < kEffectCount; ++i) c->whole("effects", effects[i], b.effects[i]);
-  c->optional("needs", needs, b.needs,
-              [c](auto, const auto& x, const auto& y) { compareNeeds(c, x, y); });
+  c->optional("needs", requirements, b.requirements,
+              [c](auto, const auto& x, const auto& y) { compareRequirements(c, x, y); });
   return c->first();
 }
 

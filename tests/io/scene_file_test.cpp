@@ -149,7 +149,7 @@ TEST(SceneFile, ModelsHaveTheirNames) {
     const Result<Scene> sampled = read(model + ", \"model_samples\": 7");
     ASSERT_EQ(static_cast<bool>(sampled), samples) << sampled.error;
     if (samples) {
-      EXPECT_EQ(sampled->modelSamples, 7u);
+      EXPECT_EQ(sampled->modelStepCount, 7u);
     } else {
       expectMentions(sampled.error, {"'model_samples'", name});
     }
@@ -161,24 +161,25 @@ TEST(SceneFile, ModelsHaveTheirNames) {
   expectMentions(read("\"model\": \"single\", \"orders\": 2").error, {"'orders'", "single"});
 }
 
-TEST(SceneFile, ShaftsHaveTheirNames) {
+TEST(SceneFile, LightShaftsHaveTheirNames) {
   const auto shafts = [](const std::string& fields) {
     const Result<Scene> result = parseScene(with("size", "[3, 2], " + fields), "s.json", "");
     EXPECT_TRUE(result) << result.error;
     return result ? *result : Scene{};
   };
-  EXPECT_EQ(shafts("\"model\": \"bruneton\"").shafts, SceneShafts::Auto);
-  EXPECT_EQ(shafts("\"model\": \"bruneton\"").shaftSamples, 32u);
-  EXPECT_EQ(shafts("\"shafts\": \"auto\"").shafts, SceneShafts::Auto);
-  EXPECT_EQ(shafts("\"shafts\": \"paper\"").shafts, SceneShafts::Paper);
-  EXPECT_EQ(shafts("\"shafts\": \"exact\"").shafts, SceneShafts::Exact);
-  EXPECT_EQ(shafts("\"shafts\": \"march\", \"shaft_samples\": 4096").shafts, SceneShafts::March);
-  EXPECT_EQ(shafts("\"shafts\": \"march\", \"shaft_samples\": 4096").shaftSamples, 4096u);
-  EXPECT_EQ(shafts("\"shafts\": \"off\"").shafts, SceneShafts::Off);
+  EXPECT_EQ(shafts("\"model\": \"bruneton\"").shafts, SceneLightShafts::Auto);
+  EXPECT_EQ(shafts("\"model\": \"bruneton\"").lightShaftStepCount, 32u);
+  EXPECT_EQ(shafts("\"shafts\": \"auto\"").shafts, SceneLightShafts::Auto);
+  EXPECT_EQ(shafts("\"shafts\": \"paper\"").shafts, SceneLightShafts::ShadowVolume);
+  EXPECT_EQ(shafts("\"shafts\": \"exact\"").shafts, SceneLightShafts::LightVolume);
+  EXPECT_EQ(shafts("\"shafts\": \"march\", \"shaft_samples\": 4096").shafts,
+            SceneLightShafts::RayMarch);
+  EXPECT_EQ(shafts("\"shafts\": \"march\", \"shaft_samples\": 4096").lightShaftStepCount, 4096u);
+  EXPECT_EQ(shafts("\"shafts\": \"off\"").shafts, SceneLightShafts::Off);
   EXPECT_EQ(shafts("\"shafts\": \"exact\", \"effects\": {\"light_shafts\": \"off\"}").shafts,
-            SceneShafts::Off);
+            SceneLightShafts::Off);
   EXPECT_EQ(shafts("\"shafts\": \"exact\", \"effects\": {\"light_shafts\": \"auto\"}").shafts,
-            SceneShafts::Exact);
+            SceneLightShafts::LightVolume);
 }
 
 TEST(SceneFile, StarsAreThereOrNot) {
@@ -269,7 +270,7 @@ TEST(SceneFile, TheAtmosphereIsAPresetAFileOrInline) {
                  {"sub/bad.json", "JSON"});
 }
 
-TEST(SceneFile, ScenesAndAtmospheresAreToldApartByContent) {
+TEST(SceneFile, ScenesAndAtmospheresAreDistinguishedByContent) {
   TemporaryFolder folder;
   Parameters mars;
   ASSERT_EQ(findPreset("mars", &mars, {}), Status::Ok);

@@ -11,7 +11,7 @@
 #include "schema.h"
 #include "temporary_folder.h"
 
-#include "tests/model/heard.h"
+#include "tests/parameters/heard.h"
 
 namespace alpenglow::io {
 namespace {
@@ -157,15 +157,15 @@ TEST(SceneFormat, AnAtmosphereIsAPresetsNameOnlyIfAllBitsAreThePresets) {
 
 TEST(SceneFormat, ALoneEndOfARangeHasTheScenesOwnAtTheOther) {
   Scene scene = earthScene();
-  scene.needs.emplace();
-  scene.needs->altitude_m[1] = 500.0;
-  scene.needs->sunElevation[0] = 0.0;
+  scene.requirements.emplace();
+  scene.requirements->altitude_m[1] = 500.0;
+  scene.requirements->sunElevation[0] = 0.0;
   const Scene again = parsed(formatScene(scene));
-  ASSERT_TRUE(again.needs.has_value());
-  EXPECT_EQ(again.needs->altitude_m[0], 2.0);
-  EXPECT_EQ(again.needs->altitude_m[1], 500.0);
-  EXPECT_EQ(again.needs->sunElevation[0], 0.0);
-  EXPECT_EQ(again.needs->sunElevation[1], scene.sun.elevation);
+  ASSERT_TRUE(again.requirements.has_value());
+  EXPECT_EQ(again.requirements->altitude_m[0], 2.0);
+  EXPECT_EQ(again.requirements->altitude_m[1], 500.0);
+  EXPECT_EQ(again.requirements->sunElevation[0], 0.0);
+  EXPECT_EQ(again.requirements->sunElevation[1], scene.sun.elevation);
 }
 
 TEST(SceneFormat, WritesFilesThatCanBeReadFromAnywhere) {
@@ -207,7 +207,7 @@ TEST(SceneFormat, TheComparisonCompares) {
   base.terrain.emplace();
   base.balloons.resize(1);
   base.stars.emplace();
-  base.needs.emplace().altitude_m[0] = 1.0;
+  base.requirements.emplace().altitude_m[0] = 1.0;
   const std::function<void(Scene*)> changes[] = {
       [](Scene* s) { s->atmosphere.mie.asymmetry = 0.1; },
       [](Scene* s) { s->atmosphere.absorption.extinction_per_m[2] = 1.0; },
@@ -223,10 +223,10 @@ TEST(SceneFormat, TheComparisonCompares) {
       [](Scene* s) { s->exposure = 1.0; },
       [](Scene* s) { s->orders = 1; },
       [](Scene* s) { s->effects[kEffectCount - 1] = Force::On; },
-      [](Scene* s) { s->needs->altitude_m[0] = 2.0; },
-      [](Scene* s) { s->needs->sunElevation[1] = 0.0; },
-      [](Scene* s) { s->needs->budgetBytes = 1; },
-      [](Scene* s) { s->needs.reset(); }};
+      [](Scene* s) { s->requirements->altitude_m[0] = 2.0; },
+      [](Scene* s) { s->requirements->sunElevation[1] = 0.0; },
+      [](Scene* s) { s->requirements->budgetBytes = 1; },
+      [](Scene* s) { s->requirements.reset(); }};
   std::set<std::string> seen;
   for (const auto& change : changes) {
     Scene changed = base;

@@ -65,7 +65,7 @@ class Checker {
     }
     if (key == "minLength") {
       const bool good = !value.is_string() || value.get<std::string>().size() >= rule.get<size_t>();
-      return good ? "" : "the text is too short";
+      return good ? "" : "the string is too short";
     }
     if (value.is_number()) return bound(key, rule, value.get<double>());
     return members(root, schema, key, rule, value);

@@ -8,7 +8,7 @@
 
 #include "temporary_folder.h"
 
-#include "tests/model/heard.h"
+#include "tests/parameters/heard.h"
 
 namespace alpenglow::io {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "atmosphere/model/table_limits.h"
+#include <alpenglow/table_limits.h>
 #include "small_table.h"
 #include "temporary_folder.h"
 
@@ -267,8 +267,7 @@ TEST(TableSettings, DefaultsFollowSolverAndQuality) {
   EXPECT_EQ(desc.quality, Quality::Medium);
   EXPECT_EQ(scatteringSizeText(desc.sizes), "0x0x0x0");
   EXPECT_TRUE(checkSizes(desc)) << checkSizes(desc).error;
-  EXPECT_EQ(momentSettingsText(desc.sizes),
-            momentSettingsText(whole.sizes));
+  EXPECT_EQ(momentSettingsText(desc.sizes), momentSettingsText(whole.sizes));
 
   TableDesc custom;
   custom.quality = Quality::High;

@@ -7,9 +7,9 @@
 
 #include <vector>
 
-#include "atmosphere/bake/moment_shape.h"
-#include "atmosphere/bake/table_set.h"
-#include "atmosphere/model/query.h"
+#include "atmosphere/parameters/query.h"
+#include "atmosphere/tables/moment_shape.h"
+#include "atmosphere/tables/table_set.h"
 
 #define IN(type) const type&
 #define OUT(type) type&
@@ -18,7 +18,7 @@
 #define SPECTRUM(value) Spectrum(value)
 
 namespace alpenglow::light_f32 {
-using namespace physics_f32;             // NOLINT: as the text has it
+using namespace physics_f32;             // NOLINT: as the source has it
 using Spectrum = physics_f32::Spectrum;  // not the public one
 #define REAL(literal) static_cast<float>(literal)
 #include "tests/physics/direct_light.inc"
@@ -26,7 +26,7 @@ using Spectrum = physics_f32::Spectrum;  // not the public one
 }  // namespace alpenglow::light_f32
 
 namespace alpenglow::light_f64 {
-using namespace physics_f64;             // NOLINT: as the text has it
+using namespace physics_f64;             // NOLINT: as the source has it
 using Spectrum = physics_f64::Spectrum;  // not the public one
 #define REAL(literal) static_cast<double>(literal)
 #include "tests/physics/direct_light.inc"
@@ -79,17 +79,15 @@ inline bool isBalanced(const light_f32::DirectLight::Light& light) {
 inline TableDesc tableDesc(const Parameters& parameters, const TableSizes& settings) {
   TableDesc desc;
   desc.sizes = settings;
-  return bake::completed(parameters, desc);
+  return tables::completed(parameters, desc);
 }
 
-inline light_f64::DirectLight lightsInDouble(const Parameters& p,
-                                             const TableSizes& settings = {}) {
-  return {makeMediumF64(p), bake::makeMomentShapeF64(p, tableDesc(p, settings))};
+inline light_f64::DirectLight lightsInDouble(const Parameters& p, const TableSizes& settings = {}) {
+  return {makeMediumF64(p), tables::makeMomentShapeF64(p, tableDesc(p, settings))};
 }
 
-inline light_f32::DirectLight lightsInFloat(const Parameters& p,
-                                            const TableSizes& settings = {}) {
-  return {makeMediumF32(p), bake::makeMomentShapeF32(p, tableDesc(p, settings))};
+inline light_f32::DirectLight lightsInFloat(const Parameters& p, const TableSizes& settings = {}) {
+  return {makeMediumF32(p), tables::makeMomentShapeF32(p, tableDesc(p, settings))};
 }
 
 /// Both precisions of an atmosphere, as the default quality has it.

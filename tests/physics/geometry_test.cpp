@@ -183,7 +183,7 @@ TYPED_TEST(Geometry, FarObserversFindTheirEntry) {
   }
 }
 
-TYPED_TEST(Geometry, InsideARayIsTheObserversOwn) {
+TYPED_TEST(Geometry, RaysInsideStartAtTheObserver) {
   using Real = typename TypeParam::Real;
   const auto m = TypeParam::medium(preset("earth"));
   const auto ray = makeRay(m, Real(1000), Real(-0.1), std::sqrt(Real(0.99)), Real(0.4), Real(0.2));
@@ -196,7 +196,7 @@ TYPED_TEST(Geometry, InsideARayIsTheObserversOwn) {
   EXPECT_EQ(ray.extent, distanceToGround(m, Real(1000), Real(-0.1)));
 }
 
-TYPED_TEST(Geometry, LookingAwayFromSpaceMisses) {
+TYPED_TEST(Geometry, RaysAwayFromThePlanetMiss) {
   using Real = typename TypeParam::Real;
   const auto m = TypeParam::medium(preset("earth"));
   EXPECT_FALSE(makeRay(m, Real(400e3), Real(0.2), Real(0.98), Real(1), Real(0)).inAtmosphere);

@@ -1,5 +1,5 @@
 // The hard cases of rays: single scattering and transmittance in float, as the GPU computes them,
-// against the same text in double and against the adaptive quadrature. docs/stability.md has the
+// against the same source in double and against the adaptive quadrature. docs/stability.md has the
 // figures that these tests print.
 #include <algorithm>
 #include <cstdio>
@@ -201,7 +201,7 @@ TEST(HardCases, RaysInTheShadowsEdge) {
 }
 
 // Air that does not thin out: the table of optical depths must not end in darkness at the top.
-TEST(HardCases, SunNearTheTopOfDenseAir) {
+TEST(HardCases, SunNearTheTopOfADenseMedium) {
   Parameters p = preset("earth");
   p.rayleigh.scaleHeight_m = 30e3;
   for (uint32_t i = 0; i < kSpectrumSize; ++i) p.rayleigh.scattering_per_m[i] *= 4.0;

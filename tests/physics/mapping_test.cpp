@@ -28,10 +28,10 @@ TYPED_TEST(Mapping, ScatteringAltitudesRoundTrip) {
     for (const Sizes& size : kSizes) {
       const Real n = static_cast<Real>(size.r);
       for (int i = 0; i < size.r; ++i) {
-        const Real h = scatteringH(m, unitFromTexel(static_cast<Real>(i), n));
+        const Real h = scatteringH(m, texelToU(static_cast<Real>(i), n));
         EXPECT_GE(h, Real(0));
         EXPECT_LE(h, m.thickness);
-        const Real texel = insetCoordinate(scatteringUnitR(m, h), n) * n - Real(0.5);
+        const Real texel = insetCoordinate(scatteringUr(m, h), n) * n - Real(0.5);
         EXPECT_NEAR(texel, i, slack<Real>()) << radius;
       }
     }
@@ -58,14 +58,13 @@ TYPED_TEST(Mapping, ScatteringDirectionsRoundTripInBothHalves) {
     for (const Sizes& size : kSizes) {
       const Real n = static_cast<Real>(size.mu);
       for (int i = 1; i < size.r; ++i) {
-        const Real h =
-            scatteringH(m, unitFromTexel(static_cast<Real>(i), static_cast<Real>(size.r)));
+        const Real h = scatteringH(m, texelToU(static_cast<Real>(i), static_cast<Real>(size.r)));
         for (int j = 0; j < size.mu; ++j) {
           const bool ground = 2 * j < size.mu;
-          const Real u = scatteringUnitMuFromTexel(static_cast<Real>(j), ground, n);
+          const Real u = texelToScatteringUmu(static_cast<Real>(j), ground, n);
           const Real mu = scatteringMu(m, h, u, ground);
           ASSERT_TRUE(mu >= Real(-1) && mu <= Real(1)) << mu;
-          const Real back = scatteringUnitMu(m, h, mu, ground);
+          const Real back = scatteringUmu(m, h, mu, ground);
           const Real texel = scatteringCoordinateMu(back, ground, n) * n - Real(0.5);
           // Half a float's digits are left of a distance near the tangent.
           const double digits = std::is_same_v<Real, float> ? 1e-3 * size.mu : 1e-5;
@@ -84,8 +83,8 @@ TYPED_TEST(Mapping, HalvesMeetAtTheHorizonAndDoNotMix) {
   for (double altitude : {0.0, 2.0, 9000.0, 60e3}) {
     const Real h = static_cast<Real>(altitude);
     for (Real mu : {Real(-1), Real(-0.5), horizonMu(m, h), Real(0), Real(1)}) {
-      const Real ground = scatteringCoordinateMu(scatteringUnitMu(m, h, mu, true), true, n);
-      const Real sky = scatteringCoordinateMu(scatteringUnitMu(m, h, mu, false), false, n);
+      const Real ground = scatteringCoordinateMu(scatteringUmu(m, h, mu, true), true, n);
+      const Real sky = scatteringCoordinateMu(scatteringUmu(m, h, mu, false), false, n);
       // Texel centres 0 to 63 and 64 to 127: filtering never reaches across.
       EXPECT_GE(ground, Real(0.5) / n * Real(0.9999));
       EXPECT_LE(ground, Real(63.5) / n * Real(1.0001));
@@ -95,8 +94,8 @@ TYPED_TEST(Mapping, HalvesMeetAtTheHorizonAndDoNotMix) {
   }
   // 0 and 1 are the horizon, 1/2 the nadir and the zenith.
   const Real h = 9000;
-  EXPECT_NEAR(scatteringUnitMu(m, h, horizonMu(m, h), true), 0.0, 1e-3);
-  EXPECT_NEAR(scatteringUnitMu(m, h, horizonMu(m, h), false), 1.0, 1e-3);
+  EXPECT_NEAR(scatteringUmu(m, h, horizonMu(m, h), true), 0.0, 1e-3);
+  EXPECT_NEAR(scatteringUmu(m, h, horizonMu(m, h), false), 1.0, 1e-3);
   EXPECT_NEAR(scatteringMu(m, h, Real(0.5), true), -1.0, 1e-6);
   EXPECT_NEAR(scatteringMu(m, h, Real(0.5), false), 1.0, 1e-6);
   EXPECT_NEAR(scatteringMu(m, h, Real(0), true), horizonMu(m, h), 1e-6);
@@ -108,14 +107,14 @@ TYPED_TEST(Mapping, ScatteringDirectionsOnTheGroundAreDefined) {
   using Real = typename TypeParam::Real;
   const auto m = TypeParam::medium(preset("earth"));
   for (Real mu : {Real(-1), Real(-0.5), Real(-1e-3), Real(-1e-7), Real(0)}) {
-    EXPECT_EQ(scatteringUnitMu(m, Real(0), mu, true), Real(0.5)) << mu;
+    EXPECT_EQ(scatteringUmu(m, Real(0), mu, true), Real(0.5)) << mu;
   }
   for (int j = 0; j < 64; ++j) {
-    const Real u = scatteringUnitMuFromTexel(static_cast<Real>(j), true, Real(128));
+    const Real u = texelToScatteringUmu(static_cast<Real>(j), true, Real(128));
     EXPECT_EQ(scatteringMu(m, Real(0), u, true), Real(-1)) << j;
   }
   // Just above it, the nadir's neighbourhood is continuous.
-  EXPECT_NEAR(scatteringUnitMu(m, Real(1e-3), Real(-1), true), 0.5, 1e-4);
+  EXPECT_NEAR(scatteringUmu(m, Real(1e-3), Real(-1), true), 0.5, 1e-4);
 }
 
 TYPED_TEST(Mapping, GroundBranchIsThePapers) {
@@ -127,8 +126,7 @@ TYPED_TEST(Mapping, GroundBranchIsThePapers) {
       const double r = 6360e3 + h, rho = std::sqrt(h * (2 * 6360e3 + h));
       const double delta = r * r * mu * mu - rho * rho;
       const double paper = 0.5 + (r * mu + std::sqrt(delta)) / (2 * rho);
-      EXPECT_NEAR(scatteringUnitMu(m, static_cast<Real>(h), static_cast<Real>(mu), true), paper,
-                  1e-5)
+      EXPECT_NEAR(scatteringUmu(m, static_cast<Real>(h), static_cast<Real>(mu), true), paper, 1e-5)
           << h << " " << mu;
     }
   }
@@ -146,8 +144,7 @@ TYPED_TEST(Mapping, SkyBranchIsThePapers) {
         continue;  // Hits the ground.
       }
       const double paper = 0.5 - (r * mu - std::sqrt(delta + top * top)) / (2 * rho + 2 * top);
-      EXPECT_NEAR(scatteringUnitMu(m, static_cast<Real>(h), static_cast<Real>(mu), false), paper,
-                  1e-5)
+      EXPECT_NEAR(scatteringUmu(m, static_cast<Real>(h), static_cast<Real>(mu), false), paper, 1e-5)
           << h << " " << mu;
     }
   }
@@ -158,28 +155,28 @@ TYPED_TEST(Mapping, SunAnglesRoundTripAndHoldBelowTheTable) {
   for (const Sizes& size : kSizes) {
     const Real n = static_cast<Real>(size.muS);
     for (int i = 0; i < size.muS; ++i) {
-      const Real muS = scatteringMuS(unitFromTexel(static_cast<Real>(i), n));
-      const Real texel = insetCoordinate(scatteringUnitMuS(muS), n) * n - Real(0.5);
+      const Real muS = scatteringMuS(texelToU(static_cast<Real>(i), n));
+      const Real texel = insetCoordinate(scatteringUmuS(muS), n) * n - Real(0.5);
       EXPECT_NEAR(texel, i, slack<Real>());
     }
   }
   EXPECT_NEAR(scatteringMuS(Real(0)), -0.2, 1e-6);
   EXPECT_NEAR(scatteringMuS(Real(1)), 1.0, 1e-5);
   for (Real muS : {Real(-0.2000001), Real(-0.3), Real(-1)}) {
-    EXPECT_EQ(scatteringUnitMuS(muS), Real(0)) << "held below -0.2";
+    EXPECT_EQ(scatteringUmuS(muS), Real(0)) << "held below -0.2";
   }
   for (double muS : {-0.1, 0.0, 0.3, 1.0}) {
     const double paper = (1 - std::exp(-3 * muS - 0.6)) / (1 - std::exp(-3.6));
-    EXPECT_NEAR(scatteringUnitMuS(static_cast<Real>(muS)), paper, 1e-6);
+    EXPECT_NEAR(scatteringUmuS(static_cast<Real>(muS)), paper, 1e-6);
   }
 }
 
 TYPED_TEST(Mapping, PhaseAnglesAreLinear) {
   using Real = typename TypeParam::Real;
-  EXPECT_EQ(scatteringUnitNu(Real(-1)), Real(0));
-  EXPECT_EQ(scatteringUnitNu(Real(0)), Real(0.5));
-  EXPECT_EQ(scatteringUnitNu(Real(1)), Real(1));
-  EXPECT_EQ(scatteringUnitNu(std::nextafter(Real(1), Real(2))), Real(1));
+  EXPECT_EQ(scatteringUnu(Real(-1)), Real(0));
+  EXPECT_EQ(scatteringUnu(Real(0)), Real(0.5));
+  EXPECT_EQ(scatteringUnu(Real(1)), Real(1));
+  EXPECT_EQ(scatteringUnu(std::nextafter(Real(1), Real(2))), Real(1));
 }
 
 TYPED_TEST(Mapping, TransmittanceRoundTrips) {
@@ -191,12 +188,12 @@ TYPED_TEST(Mapping, TransmittanceRoundTrips) {
       const Real nMu = static_cast<Real>(size.mu), nR = static_cast<Real>(size.r);
       for (int i = 0; i < size.r; ++i) {
         for (int j = 0; j < size.mu; ++j) {
-          auto u = transmittanceUnit(m, Real(0), Real(0));
-          u[0] = unitFromTexel(static_cast<Real>(j), nMu);
-          u[1] = unitFromTexel(static_cast<Real>(i), nR);
+          auto u = transmittanceUv(m, Real(0), Real(0));
+          u[0] = texelToU(static_cast<Real>(j), nMu);
+          u[1] = texelToU(static_cast<Real>(i), nR);
           const auto hMu = transmittanceHMu(m, u);
           ASSERT_TRUE(hMu[1] >= Real(-1) && hMu[1] <= Real(1)) << hMu[1];
-          const auto back = transmittanceUnit(m, hMu[0], hMu[1]);
+          const auto back = transmittanceUv(m, hMu[0], hMu[1]);
           EXPECT_NEAR(insetCoordinate(back[0], nMu) * nMu - Real(0.5), j, slack<Real>());
           EXPECT_NEAR(insetCoordinate(back[1], nR) * nR - Real(0.5), i, slack<Real>());
         }
@@ -222,15 +219,15 @@ TYPED_TEST(Mapping, IrradianceRoundTrips) {
   for (int n : {2, 16, 64}) {
     const Real count = static_cast<Real>(n);
     for (int i = 0; i < n; ++i) {
-      auto u = irradianceUnit(m, Real(0), Real(0));
-      u[0] = u[1] = unitFromTexel(static_cast<Real>(i), count);
+      auto u = irradianceUv(m, Real(0), Real(0));
+      u[0] = u[1] = texelToU(static_cast<Real>(i), count);
       const auto hMuS = irradianceHMuS(m, u);
-      const auto back = irradianceUnit(m, hMuS[0], hMuS[1]);
+      const auto back = irradianceUv(m, hMuS[0], hMuS[1]);
       EXPECT_NEAR(insetCoordinate(back[0], count) * count - Real(0.5), i, slack<Real>());
       EXPECT_NEAR(insetCoordinate(back[1], count) * count - Real(0.5), i, slack<Real>());
     }
   }
-  EXPECT_EQ(irradianceUnit(m, Real(0), Real(-0.5))[0], Real(0)) << "held below -0.2";
+  EXPECT_EQ(irradianceUv(m, Real(0), Real(-0.5))[0], Real(0)) << "held below -0.2";
 }
 
 }  // namespace

@@ -143,7 +143,7 @@ TYPED_TEST(OpticalDepth, SegmentsFollowTheScaleHeightInAnyShell) {
   }
 }
 
-TYPED_TEST(OpticalDepth, OneRuleServesThePixelsOfTheGround) {
+TYPED_TEST(OpticalDepth, OneRuleCoversGroundPixels) {
   using Real = typename TypeParam::Real;
   const Parameters p = preset("earth");
   const auto m = TypeParam::medium(p);

@@ -11,16 +11,16 @@ void main() {
   Ray ray = makeRay(medium, 2.0, 0.1, 0.99, 0.5, 0.3);
   Spectrum depth = opticalDepthToTop(medium, ray.h, ray.mu, 500) +
                    opticalDepthOfSegment(medium, ray.h, ray.mu, ray.extent);
-  float u = scatteringUnitMu(medium, ray.h, ray.mu, ray.hitsGround);
+  float u = scatteringUmu(medium, ray.h, ray.mu, ray.hitsGround);
   result[0] = vec4(depth, u);
   MomentShape shape;
   shape.sunWidth = shape.sunRange = shape.heightScale = shape.depthSharpness = 1.0;
-  Piece piece = makePiece(medium, ray, 0.0, ray.extent);
-  SliceView view = SliceView(1.5, 1.6, 1.0);
-  result[2] = vec4(depthCoordinate(medium, shape, ray.h, ray.mu), pieceNode(piece, 0.5));
+  RaySegment segment = makeSegment(medium, ray, 0.0, ray.extent);
+  SkyViewParams view = SkyViewParams(1.5, 1.6, 1.0);
+  result[2] = vec4(depthCoordinate(medium, shape, ray.h, ray.mu), segmentNode(segment, 0.5));
   result[3] = vec4(reflectedRadiance(medium.groundAlbedo, depth, depth),
-                   gridCoordinate(sliceGrid(view, 128.0, 160.0), view, angleFromNadir(ray.mu, 0.5), 0.5, ray.hitsGround).x);
-  AirStretch air = airStretch(medium, airView(medium, view, ray.h), ray);
-  result[4] = vec4(airUnit(air, 100.0), airTexelDistance(air, 3), airMeanDepth(result[0], 1.0), 0.0);
+                   gridCoordinate(skyViewGrid(view, 128.0, 160.0), view, angleFromNadir(ray.mu, 0.5), 0.5, ray.hitsGround).x);
+  AerialSegment aerial = aerialSegment(medium, aerialView(medium, view, ray.h), ray);
+  result[4] = vec4(aerialU(aerial, 100.0), aerialTexelDistance(aerial, 3), aerialMeanDepth(result[0], 1.0), 0.0);
   result[1] = vec4(depth, miePhase(medium.mieAsymmetry, ray.nu));
 }

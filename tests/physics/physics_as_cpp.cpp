@@ -2,7 +2,7 @@
 // physics.comp, where every literal and conversion must have the precision's type.
 #include <type_traits>
 
-#include "atmosphere/model/physics_cpp.h"
+#include "atmosphere/parameters/physics_cpp.h"
 
 namespace physics = alpenglow::PRECISION;
 using physics::Real;
@@ -18,18 +18,18 @@ physics::Spectrum callEachFile(const physics::Medium& medium) {
   const physics::Spectrum depth = physics::opticalDepthToTop(medium, ray.h, ray.mu, 500) +
                                   physics::opticalDepthOfSegment(medium, ray.h, ray.mu, ray.extent);
   const physics::MomentShape shape{};
-  const physics::Piece piece = physics::makePiece(medium, ray, Real(0), ray.extent);
-  const physics::SliceView view{Real(1.5), Real(1.6), Real(1)};
+  const physics::RaySegment segment = physics::makeSegment(medium, ray, Real(0), ray.extent);
+  const physics::SkyViewParams view{Real(1.5), Real(1.6), Real(1)};
   const physics::Real2 at =
       physics::depthCoordinate(medium, shape, ray.h, ray.mu) +
-      physics::pieceNode(piece, Real(0.5)) +
-      physics::gridCoordinate(physics::sliceGrid(view, Real(128), Real(160)), view,
+      physics::segmentNode(segment, Real(0.5)) +
+      physics::gridCoordinate(physics::skyViewGrid(view, Real(128), Real(160)), view,
                               physics::angleFromNadir(ray.mu, Real(0.5)), Real(0.5),
                               ray.hitsGround);
-  const physics::AirStretch air =
-      physics::airStretch(medium, physics::airView(medium, view, ray.h), ray);
-  if (at[0] > physics::airUnit(air, physics::airTexelDistance(air, 3)))
+  const physics::AerialSegment aerial =
+      physics::aerialSegment(medium, physics::aerialView(medium, view, ray.h), ray);
+  if (at[0] > physics::aerialU(aerial, physics::aerialTexelDistance(aerial, 3)))
     return physics::reflectedRadiance(medium.groundAlbedo, depth, depth);
-  const Real u = physics::scatteringUnitMu(medium, ray.h, ray.mu, ray.hitsGround);
+  const Real u = physics::scatteringUmu(medium, ray.h, ray.mu, ray.hitsGround);
   return depth * (u + physics::miePhase(medium.mieAsymmetry, ray.nu));
 }

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-#include "atmosphere/model/physics_cpp.h"
+#include "atmosphere/parameters/physics_cpp.h"
 
 namespace alpenglow::test {
 
@@ -19,10 +19,10 @@ using physics_f32::miePhase, physics_f64::miePhase;
 using physics_f32::rayleighPhase, physics_f64::rayleighPhase;
 using physics_f32::scatteringCoordinateMu, physics_f64::scatteringCoordinateMu;
 using physics_f32::scatteringMuS, physics_f64::scatteringMuS;
-using physics_f32::scatteringUnitMuFromTexel, physics_f64::scatteringUnitMuFromTexel;
-using physics_f32::scatteringUnitMuS, physics_f64::scatteringUnitMuS;
-using physics_f32::scatteringUnitNu, physics_f64::scatteringUnitNu;
-using physics_f32::unitFromTexel, physics_f64::unitFromTexel;
+using physics_f32::scatteringUmuS, physics_f64::scatteringUmuS;
+using physics_f32::scatteringUnu, physics_f64::scatteringUnu;
+using physics_f32::texelToScatteringUmu, physics_f64::texelToScatteringUmu;
+using physics_f32::texelToU, physics_f64::texelToU;
 
 struct InFloat {
   using Real = float;

@@ -8,12 +8,12 @@
 #include <optional>
 #include <random>
 
-#include "atmosphere/model/limits.h"
+#include "atmosphere/parameters/limits.h"
 #include "atmosphere/reference/single_scattering.h"
 #include "direct_light.h"
 #include "physics_overloads.h"
 
-#include "tests/model/heard.h"
+#include "tests/parameters/heard.h"
 
 namespace alpenglow::test {
 namespace {
@@ -38,16 +38,18 @@ class Sweep {
 
   /// Anything that the validator lets pass.
   Parameters anyValid() {
-    constexpr double kRoom = model::kMaxRadius_m, kMost = model::kMaxLength_m;
+    constexpr double kRoom = parameters::kMaxRadius_m, kMost = parameters::kMaxLength_m;
     Parameters p = atmosphere();
-    p.bottomRadius_m = logUniform(model::kMinRadius_m, 0.999 * kRoom);
-    p.topRadius_m = p.bottomRadius_m + logUniform(model::kMinThickness_m, kRoom - p.bottomRadius_m);
-    p.topRadius_m = std::clamp(p.topRadius_m, p.bottomRadius_m + model::kMinThickness_m, kRoom);
-    p.rayleigh.scaleHeight_m = logUniform(model::kMinLength_m, kMost);
-    p.mie.scaleHeight_m = logUniform(model::kMinLength_m, kMost);
-    p.mie.asymmetry = uniform(-model::kMaxAsymmetry, model::kMaxAsymmetry);
+    p.bottomRadius_m = logUniform(parameters::kMinRadius_m, 0.999 * kRoom);
+    p.topRadius_m =
+        p.bottomRadius_m + logUniform(parameters::kMinThickness_m, kRoom - p.bottomRadius_m);
+    p.topRadius_m =
+        std::clamp(p.topRadius_m, p.bottomRadius_m + parameters::kMinThickness_m, kRoom);
+    p.rayleigh.scaleHeight_m = logUniform(parameters::kMinLength_m, kMost);
+    p.mie.scaleHeight_m = logUniform(parameters::kMinLength_m, kMost);
+    p.mie.asymmetry = uniform(-parameters::kMaxAsymmetry, parameters::kMaxAsymmetry);
     p.absorption.center_m = chance(0.2) ? 0.0 : logUniform(1.0, kMost);
-    p.absorption.halfWidth_m = logUniform(model::kMinLength_m, kMost);
+    p.absorption.halfWidth_m = logUniform(parameters::kMinLength_m, kMost);
     for (uint32_t i = 0; i < kSpectrumSize; ++i) {
       p.rayleigh.scattering_per_m[i] = coefficient();
       p.mie.extinction_per_m[i] = coefficient();
@@ -108,7 +110,7 @@ class Sweep {
   static constexpr double kPi = std::numbers::pi;
 
   double coefficient() {
-    return chance(0.1) ? 0.0 : logUniform(1e-12, model::kMaxCoefficient_per_m);
+    return chance(0.1) ? 0.0 : logUniform(1e-12, parameters::kMaxCoefficient_per_m);
   }
 
   double depth(double most) { return chance(0.1) ? 0.0 : logUniform(1e-6, most); }
@@ -146,8 +148,8 @@ std::string describe(const Parameters& p, const ProbeQuery& q) {
       "view %.9g, sun %.9g, azimuth %.9g, distance %.9g",
       p.bottomRadius_m, p.topRadius_m - p.bottomRadius_m, p.rayleigh.scaleHeight_m,
       p.rayleigh.present, p.rayleigh.scattering_per_m[0], p.mie.scaleHeight_m, p.mie.present,
-      p.mie.extinction_per_m[0], p.mie.asymmetry, q.altitude_m, q.zenith, q.sunZenith,
-      q.azimuth, q.distance_m);
+      p.mie.extinction_per_m[0], p.mie.asymmetry, q.altitude_m, q.zenith, q.sunZenith, q.azimuth,
+      q.distance_m);
   return text;
 }
 

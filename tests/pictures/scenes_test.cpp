@@ -132,7 +132,7 @@ class SceneTest : public testing::Test {
 class Scene : public SceneTest, public testing::WithParamInterface<std::string> {};
 using Fisheyes = SceneTest;
 
-/// What must be seen, where a scene is about something that can be told in colours.
+/// What must be seen, where a scene is about something that can be checked by colours.
 using Check = std::function<void(const LinearImage&)>;
 const std::map<std::string, Check>& checks() {
   static const std::map<std::string, Check> kChecks = {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tests/model/heard.h"
+#include "tests/parameters/heard.h"
 
 namespace alpenglow {
 namespace {
@@ -17,7 +17,7 @@ struct Described {
   const char* air;
   double altitudeTo_m;    ///< 0: no limit.
   double sunFrom, sunTo;  ///< Degrees.
-  VisibilityFlags seen;
+  VisibilityFlags visible;
   bool occluders;
   double error;    ///< 0: the default.
   const char* on;  ///< Effects that must be on, and such that must be off.
@@ -68,10 +68,10 @@ Plan planOf(const Described& scene) {
   request.altitudeTo_m = scene.altitudeTo_m;
   request.sunElevationFrom = scene.sunFrom * kDegree;
   request.sunElevationTo = scene.sunTo * kDegree;
-  request.visible = scene.seen;
+  request.visible = scene.visible;
   request.casters = scene.occluders;
   request.errorTarget = scene.error;
-  request.sunDiscRadius = (scene.seen & kVisibleSun) != 0 ? 0.0047 : 0.0;
+  request.sunDiscRadius = (scene.visible & kVisibleSun) != 0 ? 0.0047 : 0.0;
   Plan plan;
   testing::Heard heard;
   EXPECT_EQ(makePlan(parameters, request, &plan, heard.sink()), Status::Ok) << heard.sentence;
@@ -83,7 +83,7 @@ bool names(const std::string& text, const std::string& name) {
   return (" " + text + " ").find(" " + name + " ") != std::string::npos;
 }
 
-TEST(DescribedScenes, HaveWhatTheyCallForAndNothingElse) {
+TEST(DescribedScenes, EnableExactlyTheEffectsTheyNeed) {
   for (const Described& scene : kScenes) {
     const Plan plan = planOf(scene);
     for (uint32_t i = 0; i < kEffectCount; ++i) {

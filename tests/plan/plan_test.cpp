@@ -5,7 +5,7 @@
 #include <random>
 #include <string>
 
-#include "tests/model/heard.h"
+#include "tests/parameters/heard.h"
 
 namespace alpenglow {
 namespace {
@@ -37,15 +37,15 @@ std::string refusal(const PlanRequest& request) {
 bool on(const Plan& plan, Effect effect) { return plan.choices[static_cast<uint32_t>(effect)].on; }
 
 PlanRequest noon() {
-  PlanRequest needs;
-  needs.altitudeTo_m = 100.0;
-  needs.sunElevationFrom = 50.0 * kDegree;
-  needs.sunElevationTo = 60.0 * kDegree;
-  needs.visible = kVisibleSky | kVisibleGround;
-  return needs;
+  PlanRequest request;
+  request.altitudeTo_m = 100.0;
+  request.sunElevationFrom = 50.0 * kDegree;
+  request.sunElevationTo = 60.0 * kDegree;
+  request.visible = kVisibleSky | kVisibleGround;
+  return request;
 }
 
-TEST(Plan, ClearNoonHasNothingOfShaftsTwilightOrSpace) {
+TEST(Plan, ClearNoonDisablesShaftsTwilightAndSpace) {
   const Plan plan = planOf(noon());
   for (const Effect off : {Effect::LightShafts, Effect::Twilight, Effect::Night, Effect::SpaceViews,
                            Effect::AerialPerspective, Effect::SunDisc})
@@ -57,36 +57,36 @@ TEST(Plan, ClearNoonHasNothingOfShaftsTwilightOrSpace) {
 // The goal of a scene at ground level under a fixed evening sun, by the numbers of the plan; what
 // it measures and how far it is from the truth: build/bin/domain_bench.
 TEST(Plan, AFixedEveningSunTakesAQuarter) {
-  PlanRequest needs;
-  needs.altitudeTo_m = 2.0;
-  needs.sunElevationFrom = needs.sunElevationTo = 3.0 * kDegree;
-  needs.sunFixed = true;
-  needs.visible = kVisibleSky | kVisibleGround | kVisibleSun;
-  needs.sunDiscRadius = 0.0047;
-  needs.tables.quality = Quality::Medium;
-  const Plan plan = planOf(needs);
+  PlanRequest request;
+  request.altitudeTo_m = 2.0;
+  request.sunElevationFrom = request.sunElevationTo = 3.0 * kDegree;
+  request.sunFixed = true;
+  request.visible = kVisibleSky | kVisibleGround | kVisibleSun;
+  request.sunDiscRadius = 0.0047;
+  request.tables.quality = Quality::Medium;
+  const Plan plan = planOf(request);
   EXPECT_EQ(plan.tables.sizes.depthMu, 128u);
   EXPECT_LE(plan.cost.units, plan.whole.units / 4);
   uint64_t bytes = 0;
   for (uint32_t i = 0; i < plan.imageCount; ++i)
-    if (std::string(plan.images[i].name).find("sky slice") == std::string::npos)
+    if (std::string(plan.images[i].name).find("sky-view LUT") == std::string::npos)
       bytes += plan.images[i].bytes;
   constexpr uint64_t kDefaultTables = 7'000'000;  // docs/accuracy.md
   EXPECT_LE(bytes, kDefaultTables / 4);
   EXPECT_TRUE(plan.errorMet);
 }
 
-TEST(Plan, AnythingHasEverything) {
-  PlanRequest needs;
-  needs.sunDiscRadius = 0.01;
-  needs.casters = true;
-  const Plan plan = planOf(needs);
+TEST(Plan, AnUnlimitedRequestEnablesEverything) {
+  PlanRequest request;
+  request.sunDiscRadius = 0.01;
+  request.casters = true;
+  const Plan plan = planOf(request);
   for (uint32_t i = 0; i < kEffectCount; ++i)
     EXPECT_TRUE(plan.choices[i].on) << plan.choices[i].reason;
   EXPECT_EQ(plan.tables.sunZenithTo, 0.0);
 }
 
-TEST(Plan, AirDecides) {
+TEST(Plan, EffectsFollowTheMedium) {
   EXPECT_FALSE(on(planOf(noon(), "earth-clear"), Effect::Mie));
   EXPECT_FALSE(on(planOf(noon(), "earth-fig6"), Effect::Absorption));
   EXPECT_TRUE(on(planOf(noon(), "earth"), Effect::Absorption));
@@ -106,7 +106,7 @@ TEST(Plan, EveryReasonIsASentence) {
   }
 }
 
-TEST(Plan, MoreNeedsNeverGiveLess) {
+TEST(Plan, WiderRequestsNeverGiveLess) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int i = 0; i < 60; ++i) {
@@ -138,15 +138,15 @@ RecreateFlags change(const Plan& current, const PlanRequest& request, std::strin
   return flags;
 }
 
-TEST(Plan, ServesWhatItWasMadeFor) {
+TEST(Plan, CoversItsOwnRequest) {
   const Plan plan = planOf(noon());
   std::string reason;
-  PlanRequest needs = noon();
-  needs.sunElevationFrom = 52.0 * kDegree;
-  needs.altitudeTo_m = 50.0;
-  EXPECT_EQ(change(plan, needs, &reason), 0u) << reason;
-  needs.sunElevationFrom = -5.0 * kDegree;
-  EXPECT_NE(change(plan, needs, &reason) & kRecreateTables, 0u);
+  PlanRequest request = noon();
+  request.sunElevationFrom = 52.0 * kDegree;
+  request.altitudeTo_m = 50.0;
+  EXPECT_EQ(change(plan, request, &reason), 0u) << reason;
+  request.sunElevationFrom = -5.0 * kDegree;
+  EXPECT_NE(change(plan, request, &reason) & kRecreateTables, 0u);
   EXPECT_NE(reason, "");
 }
 
@@ -165,7 +165,8 @@ TEST(Plan, TellsWhatChangesTakes) {
       {"sizes", [](PlanRequest* r) { r->tables.sizes.nodesR = 20; }, kRecreateTables},
       {"quality", [](PlanRequest* r) { r->tables.quality = Quality::Ultra; },
        kRecreateTables | kRecreateView},
-      {"projection", [](PlanRequest* r) { r->view.projection = Projection::Fisheye; }, kRecreateView},
+      {"projection", [](PlanRequest* r) { r->view.projection = Projection::Fisheye; },
+       kRecreateView},
       {"scene", [](PlanRequest* r) { r->visible |= kVisibleScene; }, kRecreateView},
       {"casters",
        [](PlanRequest* r) {
@@ -190,10 +191,10 @@ TEST(Plan, TellsWhatChangesTakes) {
   }
 }
 
-TEST(Plan, RefusesWrongNeeds) {
-  PlanRequest needs;
-  needs.altitudeFrom_m = -1.0;
-  const std::string message = refusal(needs);
+TEST(Plan, RefusesWrongRequests) {
+  PlanRequest request;
+  request.altitudeFrom_m = -1.0;
+  const std::string message = refusal(request);
   EXPECT_NE(message.find("altitudeFrom_m is -1"), std::string::npos) << message;
 }
 

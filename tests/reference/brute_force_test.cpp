@@ -1,6 +1,6 @@
 // The reference against an evaluation that shares nothing with it: vectors instead of cosines, its
 // own densities, phase functions and shadow, and Simpson's rule with 100,000 intervals.
-#include <alpenglow/reference.h>
+#include <alpenglow/reference/reference.h>
 
 #include <array>
 #include <cmath>

@@ -93,7 +93,7 @@ class Queries:
                  sun_zenith_deg=zenith, azimuth_deg=around, distance_m=None)
 
     def space(self, h):
-        """Altitudes in space keep their ratio to the planet's radius, above the air."""
+        """Altitudes in space keep their ratio to the planet's radius, above the atmosphere."""
         return max(h * self.rg / 6360e3, 3 * (self.rt - self.rg)) if self.rg < 3e6 else h
 
     def down(self, sun, h, off_nadir, azimuth):
@@ -115,7 +115,7 @@ class Queries:
 
 
 def day_part(q, sun, i, full):
-    """What every sun gets; `i` turns the azimuths and altitudes through the suns."""
+    """What every sun gets; `i` turns the azimuths and altitudes through the sun directions."""
     azimuths = [0, 60, 120, 180]
     turn = lambda k: azimuths[(i + k) % 4]
     q.irradiance(sun, 0)

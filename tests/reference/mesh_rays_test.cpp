@@ -46,7 +46,7 @@ TEST(MeshRays, ABoxIsHitOnItsFaces) {
   }
 }
 
-TEST(MeshRays, AFlatBoxOfATreeIsStillHit) {
+TEST(MeshRays, FlatBoundingBoxesAreHit) {
   // A grid of triangles in the plane z = 0, whose boxes have no height, and rays along its axes.
   Mesh grid;
   constexpr uint32_t kSide = 9;
@@ -99,7 +99,7 @@ TEST(MeshRays, NoRayLeavesAClosedMesh) {
 }
 
 /// The same by trying all triangles, one mesh each.
-TEST(MeshRays, TheTreeFindsWhatAllTrianglesHave) {
+TEST(MeshRays, TheTreeAgreesWithBruteForce) {
   Random random(4, 1);
   Mesh soup;
   for (uint32_t i = 0; i < 300; ++i) {
@@ -153,7 +153,7 @@ TEST(MeshRays, SeveralMeshesKeepTheirNumbersAndFloatsWork) {
   EXPECT_NEAR(second->t, 20.0, 1e-8);
 }
 
-TEST(MeshRays, WhatHasNoAreaIsNotThere) {
+TEST(MeshRays, DegenerateTrianglesAreIgnored) {
   Mesh mesh = box({-1, -1, -1}, {1, 1, 1});
   mesh.indices.insert(mesh.indices.end(), {0, 0, 1, 2, 2, 2});
   EXPECT_EQ(raysOf({mesh}).triangleCount(), 12u);

@@ -121,15 +121,15 @@ TEST(OpticalDepth, ThinLayersOfTallAtmospheresAreFound) {
   }
 }
 
-TEST(OpticalDepth, PiecesAreSortedAndCoverTheStretch) {
+TEST(OpticalDepth, BreaksAreSortedAndCoverTheSegment) {
   const Medium m = makeMediumF64(preset("earth"));
   for (double length : {1e-3, 1.0, 1e3, 8e5}) {
-    const std::vector<double> pieces = smoothPieces(m, {9e3, -0.05, length});
-    ASSERT_GE(pieces.size(), 2u);
-    EXPECT_EQ(pieces.front(), 0.0);
-    EXPECT_EQ(pieces.back(), length);
-    for (size_t i = 0; i + 1 < pieces.size(); ++i) {
-      EXPECT_LT(pieces[i], pieces[i + 1]);
+    const std::vector<double> breaks = smoothBreaks(m, {9e3, -0.05, length});
+    ASSERT_GE(breaks.size(), 2u);
+    EXPECT_EQ(breaks.front(), 0.0);
+    EXPECT_EQ(breaks.back(), length);
+    for (size_t i = 0; i + 1 < breaks.size(); ++i) {
+      EXPECT_LT(breaks[i], breaks[i + 1]);
     }
   }
 }

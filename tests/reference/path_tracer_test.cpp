@@ -52,8 +52,9 @@ TEST(Columns, AgreeWithTheAdaptiveIntegral) {
 TEST(Columns, PartsOfARayAgreeToo) {
   const Medium m = makeMediumF64(preset("earth"));
   const Columns columns(m);
-  for (const Stretch& s : {Stretch{2, 0.0, 1e3}, Stretch{9e3, -0.05, 6e5}, Stretch{9e3, -0.05, 2e5},
-                           Stretch{1e3, -0.5, 1.5e3}, Stretch{20e3, 0.3, 5e4}}) {
+  for (const RaySegment& s :
+       {RaySegment{2, 0.0, 1e3}, RaySegment{9e3, -0.05, 6e5}, RaySegment{9e3, -0.05, 2e5},
+        RaySegment{1e3, -0.5, 1.5e3}, RaySegment{20e3, 0.3, 5e4}}) {
     const double h = physics_f64::altitudeAt(m, s.h, s.mu, s.length);
     const double mu = physics_f64::muAt(m, s.h, s.mu, s.length, h);
     const Column start = columns.upwards(s.h, std::abs(s.mu));
@@ -148,7 +149,7 @@ TEST(PathTracer, OrderOneIsTheExactOne) {
     Task task = airTask(tracer.medium(), c.query);
     task.least = task.most = 1;
     ReferenceOptions options;
-    options.samples = 64 * kBatchPaths;
+    options.pathCount = 64 * kBatchPaths;
     const TaskResult traced = run(tracer, task, options, 0.0);
     const ReferenceAnswer exact = singleScattering(tracer.medium(), c.query, 1e-9);
     for (uint32_t i = 0; i < kSpectrumSize; ++i) {
@@ -173,11 +174,11 @@ Mean overAllSuns(int batches,
   Mean result;
   for (int b = 0; b < batches; ++b) {
     PathSampler sampler(11, static_cast<uint64_t>(b));
-    Random suns(12, static_cast<uint64_t>(b));
+    Random sunDirections(12, static_cast<uint64_t>(b));
     physics_f64::Spectrum sum(0.0);
     for (int i = 0; i < kPaths; ++i) {
-      const double mu = 2.0 * ((i + suns.uniform()) / kPaths) - 1.0;
-      sum += sample(around(Vector(0, 0, 1), mu, suns.uniform()), sampler);
+      const double mu = 2.0 * ((i + sunDirections.uniform()) / kPaths) - 1.0;
+      sum += sample(around(Vector(0, 0, 1), mu, sunDirections.uniform()), sampler);
     }
     means.push_back(sum / static_cast<double>(kPaths));
     result.value += means.back() / static_cast<double>(batches);
@@ -190,7 +191,7 @@ Mean overAllSuns(int batches,
   return result;
 }
 
-// Light out is light in: among suns in all directions, of radiance 1, everything that neither
+// Light out is light in: lit from all directions with radiance 1, everything that neither
 // absorbs nor emits has radiance 1, and a ray's air the share 1 - T of it.
 void expectEnergyConserved(const PathTracer& tracer, const ProbeQuery& query) {
   const Medium& medium = tracer.medium();
@@ -213,7 +214,7 @@ void expectEnergyConserved(const PathTracer& tracer, const ProbeQuery& query) {
   }
 }
 
-TEST(PathTracer, EnergyOfClearAirIsConserved) {
+TEST(PathTracer, EnergyOfAClearMediumIsConserved) {
   const PathTracer tracer(makeMediumF64(conservative("earth")));
   expectEnergyConserved(tracer, rayQuery(0, 88, 0, 0));
   expectEnergyConserved(tracer, rayQuery(59e3, 170, 0, 0));
@@ -231,7 +232,7 @@ TEST(PathTracer, EnergyOfTheGroundIsConserved) {
     return tracer.irradianceSample({0.0, sun}, kAllOrders, sampler);
   });
   for (glm::length_t c = 0; c < 3; ++c) {
-    double direct = 0.0;  // Of all suns: 2 pi times the integral of T mu, by midpoints.
+    double direct = 0.0;  // Of all sun elevations: 2 pi times the integral of T mu, by midpoints.
     constexpr int kSteps = 20000;
     for (int i = 0; i < kSteps; ++i) {
       const double mu = (i + 0.5) / kSteps;

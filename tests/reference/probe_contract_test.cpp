@@ -1,5 +1,5 @@
 // What point queries answer at the edges of their domain, as the probe file's documentation has it.
-#include <alpenglow/reference.h>
+#include <alpenglow/reference/reference.h>
 
 #include <cmath>
 #include <limits>
@@ -137,8 +137,8 @@ TEST(ProbeContract, BadQueriesAreRefused) {
   ReferenceAnswer a;
   a.value.skyRadiance[0] = 7;
   for (double ProbeQuery::*field :
-       {&ProbeQuery::altitude_m, &ProbeQuery::zenith, &ProbeQuery::sunZenith,
-        &ProbeQuery::azimuth, &ProbeQuery::distance_m}) {
+       {&ProbeQuery::altitude_m, &ProbeQuery::zenith, &ProbeQuery::sunZenith, &ProbeQuery::azimuth,
+        &ProbeQuery::distance_m}) {
     for (double value : {nan, infinity, -infinity}) {
       ProbeQuery query = rayQuery(2, 70, 80, 50);
       query.*field = value;

@@ -1,5 +1,5 @@
 // The public path tracer: what it promises about orders, errors, threads and arguments.
-#include <alpenglow/reference.h>
+#include <alpenglow/reference/reference.h>
 
 #include <cmath>
 #include <limits>
@@ -15,7 +15,7 @@ using namespace test;
 
 ReferenceOptions samplesOf(uint64_t samples, uint32_t orders = 0, uint64_t seed = 0) {
   ReferenceOptions options;
-  options.samples = samples;
+  options.pathCount = samples;
   options.orders = orders;
   options.seed = seed;
   return options;
@@ -78,8 +78,10 @@ TEST(Reference, StandardErrorsAreHonest) {
     double sum = 0.0, squares = 0.0, claimed = 0.0;
     for (uint64_t seed = 0; seed < kSeeds; ++seed) {
       const ReferenceAnswer a = truth(query, samplesOf(16384, 0, seed));
-      const double x = query.kind == QueryKind::Irradiance ? a.value.sky[2] : a.value.skyRadiance[2];
-      const double e = query.kind == QueryKind::Irradiance ? a.standardError.sky[2] : a.standardError.skyRadiance[2];
+      const double x =
+          query.kind == QueryKind::Irradiance ? a.value.sky[2] : a.value.skyRadiance[2];
+      const double e = query.kind == QueryKind::Irradiance ? a.standardError.sky[2]
+                                                           : a.standardError.skyRadiance[2];
       sum += x;
       squares += x * x;
       claimed += e * e / kSeeds;
@@ -98,7 +100,7 @@ TEST(Reference, MoreSamplesAgreeWithFewer) {
   const ProbeQuery query = rayQuery(2, 45, 95, 30);
   const ReferenceAnswer few = truth(query, samplesOf(16384)),
                         more = truth(query, samplesOf(262144));
-  EXPECT_EQ(few.samples, 16384u);
+  EXPECT_EQ(few.pathCount, 16384u);
   for (uint32_t c = 0; c < kSpectrumSize; ++c) {
     const double error = few.standardError.skyRadiance[c];
     EXPECT_LT(more.standardError.skyRadiance[c], 0.5 * error);
@@ -120,11 +122,11 @@ void onThreads(void*, uint32_t count, void (*body)(void*, uint32_t), void* conte
   for (std::thread& thread : threads) thread.join();
 }
 
-TEST(Reference, ThreadsDoNotShow) {
+TEST(Reference, ResultsDoNotDependOnThreads) {
   const Truth truth("earth");
   const ProbeQuery query = rayQuery(10e3, 120, 70, 60);
   const ReferenceAnswer alone = truth(query, samplesOf(20000));
-  EXPECT_EQ(alone.samples, 20480u) << "whole batches";
+  EXPECT_EQ(alone.pathCount, 20480u) << "whole batches";
   for (ParallelFor parallelFor : {onThreads<1>, onThreads<4>}) {
     ReferenceOptions options = samplesOf(20000);
     options.parallelFor = parallelFor;
@@ -183,13 +185,13 @@ TEST(Reference, StopsAtItsTarget) {
   const ReferenceAnswer rough = truth(rayQuery(2, 60, 50, 60), options);
   options.targetError = 0.0006;
   const ReferenceAnswer fine = truth(rayQuery(2, 60, 50, 60), options);
-  EXPECT_GT(fine.samples, rough.samples);
-  EXPECT_LT(fine.samples, uint64_t{1} << 19);
+  EXPECT_GT(fine.pathCount, rough.pathCount);
+  EXPECT_LT(fine.pathCount, uint64_t{1} << 19);
   for (uint32_t c = 0; c < kSpectrumSize; ++c) {
     EXPECT_LE(fine.standardError.skyRadiance[c], 0.0006 * fine.value.skyRadiance[c]);
   }
-  options.maxSamples = 4096;
-  EXPECT_EQ(truth(rayQuery(2, 60, 98, 60), options).samples, 4096u);
+  options.maxPathCount = 4096;
+  EXPECT_EQ(truth(rayQuery(2, 60, 98, 60), options).pathCount, 4096u);
 }
 
 // The sun at -12 degrees: 2 seconds are enough for 1 %.
@@ -277,7 +279,7 @@ TEST(Reference, BadArgumentsAreRefused) {
   EXPECT_EQ(reference, nullptr);
   ASSERT_EQ(createReference(p, &reference, {}), Status::Ok);
   ReferenceAnswer a;
-  a.samples = 7;
+  a.pathCount = 7;
   ProbeQuery bad = rayQuery(2, 70, 80, 50);
   bad.azimuth = std::numeric_limits<double>::quiet_NaN();
   const ReferenceOptions options = samplesOf(2048);
@@ -290,7 +292,7 @@ TEST(Reference, BadArgumentsAreRefused) {
   endless.targetError = -1.0;
   EXPECT_EQ(evaluateReference(reference, rayQuery(2, 70, 80, 50), endless, &a, {}),
             Status::InvalidArgument);
-  EXPECT_EQ(a.samples, 7u) << "a failed call changed the answer";
+  EXPECT_EQ(a.pathCount, 7u) << "a failed call changed the answer";
   destroyReference(reference);
   destroyReference(nullptr);
   EXPECT_EQ(evaluateReference(Parameters{}, rayQuery(2, 70, 80, 50), options, &a, {}),

@@ -49,7 +49,7 @@ Scene sceneAbout(const SceneRay& ray, const std::vector<Mesh>& meshes, double al
 
 ReferenceOptions paths(uint64_t count) {
   ReferenceOptions options;
-  options.samples = count;
+  options.pathCount = count;
   return options;
 }
 
@@ -238,7 +238,7 @@ TEST(ScenePaths, MeshesThatLetTheSunPassCastNoShadow) {
                              "under the roof");
 }
 
-// Among suns in all directions everything that neither absorbs nor emits has radiance 1, white
+// Lit from all directions, everything that neither absorbs nor emits has radiance 1, white
 // meshes as well: each sun's share of it is 1 over 4 pi.
 TEST(ScenePaths, WhiteMeshesKeepTheEnergy) {
   Parameters p = preset("earth");
@@ -270,13 +270,14 @@ TEST(ScenePaths, WhiteMeshesKeepTheEnergy) {
   }
   std::vector<physics_f64::Spectrum> air, surface;
   for (uint64_t batch = 0; batch < 48; ++batch) {
-    Random suns(6, batch);
+    Random sunDirections(6, batch);
     physics_f64::Spectrum airSum(0.0), surfaceSum(0.0);
     constexpr uint64_t kPaths = 1024;
     for (uint64_t i = 0; i < kPaths; ++i) {
       // Each path for itself: a net over a few dimensions spreads its means more than that here.
       PathSampler sampler(5, batch * kPaths + i);
-      const Vector sun = around(Vector(0, 0, 1), 2.0 * suns.uniform() - 1.0, suns.uniform());
+      const Vector sun =
+          around(Vector(0, 0, 1), 2.0 * sunDirections.uniform() - 1.0, sunDirections.uniform());
       const auto light =
           tracer.airSample(some.position, some.view, sun, end.length, true, relative, sampler);
       airSum += light.single + light.multiple;

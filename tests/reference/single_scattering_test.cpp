@@ -22,7 +22,7 @@ Parameters flatAir(double scattering_per_m, double scaleHeight_m) {
   return p;
 }
 
-TEST(SingleScattering, PlaneParallelAirIsAClosedForm) {
+TEST(SingleScattering, PlaneParallelMediumIsAClosedForm) {
   for (double beta : {1e-7, 1e-5, 1e-3, 1e-2}) {
     const Parameters p = flatAir(beta, 8000.0);
     const double thickness = p.topRadius_m - p.bottomRadius_m;
@@ -48,12 +48,12 @@ TEST(SingleScattering, ConstantSlabIsAClosedForm) {
 TEST(SingleScattering, TighterToleranceChangesLessThan1e8) {
   const double altitudes[] = {0, 2, 12e3, 59.9e3, 400e3, 36e6};
   const double views[] = {0, 85, 89.95, 90.05, 95, 109.7, 171.3, 180};
-  const double suns[] = {0, 75, 90, 95, 101};
+  const double sunDirections[] = {0, 75, 90, 95, 101};
   for (const char* name : {"earth", "mars"}) {
     const physics_f64::Medium m = makeMediumF64(preset(name));
     for (double altitude : altitudes) {
       for (double view : views) {
-        for (double sun : suns) {
+        for (double sun : sunDirections) {
           const ProbeQuery query = rayQuery(altitude, view, sun, 30);
           const ReferenceAnswer coarse = singleScattering(m, query, kRelativeTolerance);
           const ReferenceAnswer fine = singleScattering(m, query, 1e-12);

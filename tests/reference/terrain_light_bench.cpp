@@ -236,7 +236,7 @@ void evaluate(const Worlds& worlds, uint32_t paths, uint64_t stream, Sample& s) 
     s.truth += share * light;
     squares += share * light * light;
     s.unshadowed += share * sample(worlds.unshadowedTracer).multiple;
-    const PathTracer::AirLight open = sample(worlds.bare);
+    const PathTracer::AerialLight open = sample(worlds.bare);
     s.bare += share * open.multiple;
     if (!isDark(s.shadow, open.t)) s.bareLit += share * open.multiple;
     if (i % 4 == 0) {

@@ -56,7 +56,7 @@ TEST_P(TruthData, ErrorsAreSmall) {
     errors[q.band].push_back(std::max(error.total, error.skyIrradiance));
     EXPECT_LT(error.transmittance, 1e-8);
   }
-  // What tracing stops at, docs/reference.md.
+  // What tracing stops at, docs/reference-solution.md.
   const std::map<Band, double> allowed = {{Band::Day, 0.001},
                                           {Band::Low, 0.001},
                                           {Band::Civil, 0.003},
@@ -79,7 +79,7 @@ TEST_P(TruthData, TheReferenceStillGivesIt) {
   for (const TruthQuery& q : set_.queries) {
     if (turn++ % 7 != 0 || !seen.insert(q.kind).second) continue;
     ReferenceOptions options;
-    options.samples = 16384;
+    options.pathCount = 16384;
     options.seed = 1234;
     ReferenceAnswer again;
     ASSERT_EQ(evaluateReference(set_.parameters, q.query, options, &again, {}), Status::Ok);

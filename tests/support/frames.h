@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "atmosphere/sky/picture.h"
+#include "atmosphere/camera/picture.h"
 
 namespace alpenglow::testing {
 
@@ -35,8 +35,8 @@ inline Status recordLuts(View* view, VkCommandBuffer commands, const Tables* tab
   return status == Status::Ok ? alpenglow::recordLuts(view, commands) : status;
 }
 
-/// beginFrame and recordSky. Inside a rendering scope; a view with a sky-view LUT needs recordLuts of
-/// the same frame before.
+/// beginFrame and recordSky. Inside a rendering scope; a view with a sky-view LUT needs recordLuts
+/// of the same frame before.
 inline Status recordSky(View* view, VkCommandBuffer commands, const Tables* tables,
                         const FrameState& state) {
   const Status status = beginFrame(view, frameDesc(state, tables), nullptr);

@@ -11,12 +11,14 @@ struct Context;  ///< Opaque.
 
 /// What the host wants to do. Bits; ask for what you use, each has its own requirements.
 enum Capability : uint32_t {
-  kCapabilityBake = 1u << 0,           ///< Compute shaders that fill the tables, and probe queries.
-  kCapabilitySky = 1u << 1,            ///< Graphics pipelines that draw sky and ground.
-  kCapabilityAir = 1u << 2,            ///< Aerial perspective over a host's scene: dualSrcBlend.
-  kCapabilityShafts = 1u << 3,         ///< Light shafts: depthClamp.
-  kCapabilityShadowVolumes = 1u << 4,  ///< ShaftMethod::Paper, with kCapabilityShafts:
-                                       ///< geometryShader, shaderClipDistance, independentBlend.
+  kCapabilityBake = 1u << 0,  ///< Compute shaders that fill the tables, and probe queries.
+  kCapabilitySky = 1u << 1,   ///< Graphics pipelines that draw sky and ground.
+  kCapabilityAerialPerspective = 1u
+                                 << 2,  ///< Aerial perspective over a host's scene: dualSrcBlend.
+  kCapabilityLightShafts = 1u << 3,     ///< Light shafts: depthClamp.
+  kCapabilityShadowVolumes =
+      1u << 4,  ///< LightShaftMethod::ShadowVolume, with kCapabilityLightShafts:
+                ///< geometryShader, shaderClipDistance, independentBlend.
 };
 using CapabilityFlags = uint32_t;
 
@@ -40,11 +42,11 @@ struct Requirements {
 struct ShaderHook {
   void* user = nullptr;
   /// Asked for each shader of each pipeline, when it is made: by createTables, recordBake,
-  /// createView, createShafts, recordProbe. `name` is the shader's in shaders.json, such as
-  /// "kSkyFragmentSlice". True: `code`, `bytes` long, is used instead; it must live until the call
+  /// createView, createLightShafts, recordProbe. `name` is the shader's in shaders.json, such as
+  /// "kSkyFragmentLut". True: `code`, `bytes` long, is used instead; it must live until the call
   /// that asked returns. Null with false. Code that declares a resource that ours doesn't, or is of
   /// another stage or group size, makes that call fail with InvalidArgument. Called from the thread
-  /// that made the call. Tables and views keep the pipelines that they have: make them anew to use
+  /// that made the call. Tables and views keep the pipelines that they have: recreate them to use
   /// other code. Those of recordProbe stay with the context.
   bool (*replace)(void* user, const char* name, const uint32_t** code, size_t* bytes) = nullptr;
 };
@@ -81,8 +83,9 @@ ALPENGLOW_API Status queryRequirements(const ContextDesc& desc, Requirements* ou
 /// externally synchronised, and different ones may be recorded in parallel.
 ALPENGLOW_API Status createContext(const ContextDesc& desc, Context** out);
 
-/// The device must have finished with everything of the context. Tables and views that are alive are
-/// destroyed, too: they must not be used afterwards. Null is ignored, as by every destroy function.
+/// The device must have finished with everything of the context. Tables and views that are alive
+/// are destroyed, too: they must not be used afterwards. Null is ignored, as by every destroy
+/// function.
 ALPENGLOW_API void destroyContext(Context* context);
 
 /// States the frame numbers of all other calls; once a frame, before anything of the frame is
@@ -91,12 +94,11 @@ ALPENGLOW_API void destroyContext(Context* context);
 /// submitting; else InvalidArgument with a sentence, and the numbers stay. What a destroy function
 /// marks in frame n is freed by the first advanceFrame whose `completed` is at least n. Without any
 /// call the frame is 1. A host that waits for each frame passes (n + 1, n).
-ALPENGLOW_API Status advanceFrame(Context* context, uint64_t submitting,
-                                  uint64_t completed);
+ALPENGLOW_API Status advanceFrame(Context* context, uint64_t submitting, uint64_t completed);
 
 /// The commands recorded in `frame` (above the completed one) will never execute, for example since
-/// the swapchain was lost: call it before the next frame is recorded. LUTs, shadow maps, uploads and
-/// bake slices of that frame count as not recorded. A bake continues before that frame's first
+/// the swapchain was lost: call it before the next frame is recorded. LUTs, shadow maps, uploads
+/// and bake slices of that frame count as not recorded. A bake continues before that frame's first
 /// slice; from the start if slices of later frames were recorded.
 ALPENGLOW_API Status abandonFrame(Context* context, uint64_t frame);
 
@@ -111,7 +113,8 @@ struct ResourceReport {
   uint64_t peakBytes = 0;
   uint64_t dispatches = 0;
   uint64_t draws = 0;
-  uint64_t lutUpdates = 0, lutsSkipped = 0;  ///< Calls of recordLuts that recorded, that didn't need to.
+  uint64_t lutUpdates = 0,
+           lutsSkipped = 0;  ///< Calls of recordLuts that recorded, that didn't need to.
   uint64_t shadowMapUpdates = 0, shadowMapsSkipped = 0;  ///< Likewise, of recordShadowMap.
 };
 ALPENGLOW_API void resourceReport(const Context* context, ResourceReport* out);

@@ -14,15 +14,15 @@ enum class Effect : uint32_t {
   Mie,                 ///< Aerosols.
   Absorption,          ///< The layer that only absorbs (ozone).
   MultipleScattering,  ///< Paths of two events and more.
-  GroundReflection,    ///< Light that the ground sends back into the air.
+  GroundReflection,    ///< Light that the ground sends back into the atmosphere.
   GroundIrradiance,    ///< Sky light on surfaces; without it they are lit by the sun alone.
   Ground,              ///< The planet's surface, drawn.
   SunDisc,             ///< The sun's disc, drawn.
   AerialPerspective,   ///< Air in front of a host's scene.
-  LightShafts,         ///< Shadows of casters in the air.
-  SpaceViews,          ///< Cameras above the top of the atmosphere, and pixels that see no air.
-  Twilight,            ///< The sun from the horizon down to 18 degrees below it.
-  Night,               ///< The sun lower than that.
+  LightShafts,         ///< Shadows of casters in the atmosphere.
+  SpaceViews,  ///< Cameras above the top of the atmosphere, and pixels that miss the atmosphere.
+  Twilight,    ///< The sun from the horizon down to 18 degrees below it.
+  Night,       ///< The sun lower than that.
 };
 inline constexpr uint32_t kEffectCount = 13;
 
@@ -39,8 +39,8 @@ inline constexpr EffectFlags kTableEffects =
 inline constexpr EffectFlags kViewEffects =
     effectBit(Effect::Ground) | effectBit(Effect::SunDisc) | effectBit(Effect::SpaceViews);
 
-constexpr bool hasEffect(EffectFlags without, Effect effect) {
-  return (without & effectBit(effect)) == 0;
+constexpr bool hasEffect(EffectFlags disabledEffects, Effect effect) {
+  return (disabledEffects & effectBit(effect)) == 0;
 }
 
 /// As files spell it: "ground_irradiance". Never null; "" past the end.

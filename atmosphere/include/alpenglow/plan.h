@@ -15,10 +15,11 @@ enum class Force : uint32_t { Auto, On, Off };
 struct PlanRequest {
   TableDesc
       tables;  ///< Values that are given (solver, orders, quality, sizes, format ...) are kept.
-  /// Values that are given are kept: projection, formats, lightShafts, methods that are not the default.
+  /// Values that are given are kept: projection, formats, lightShafts, methods that are not the
+  /// default.
   ViewDesc view;
-  double altitudeFrom_m = 0.0;                      ///< Of the camera.
-  double altitudeTo_m = 0.0;                        ///< 0: no limit.
+  double altitudeFrom_m = 0.0;  ///< Of the camera.
+  double altitudeTo_m = 0.0;    ///< 0: no limit.
   /// Of the sun, seen from the camera's places and from the ground in view; radians. Both 0: any.
   double sunElevationFrom = 0.0, sunElevationTo = 0.0;
   bool sunFixed = false;  ///< With both of the above equal, 0 too: this elevation and no other.
@@ -65,8 +66,8 @@ inline constexpr uint32_t kMaxPlanImages = 12;
 struct Plan {
   PlanRequest request;
   TableDesc tables;  ///< For createTables.
-  /// For createView; the host adds its formats. `aerialPerspective` and `lightShafts.method` are Off
-  /// where the plan has them off.
+  /// For createView; the host adds its formats. `aerialPerspective` and `lightShafts.method` are
+  /// Off where the plan has them off.
   ViewDesc view;
   CapabilityFlags capabilities = 0;  ///< What a context for it needs.
 

@@ -30,7 +30,7 @@ struct ProbeQuery {
 struct ProbeAnswer {
   bool hitsGround = false;
   Spectrum transmittance;
-  Spectrum skyRadiance;     ///< Light scattered in the air along the segment.
+  Spectrum skyRadiance;     ///< Light scattered in the atmosphere along the segment.
   Spectrum groundRadiance;  ///< Light reflected by the uniform ground, dimmed on the way.
   Spectrum direct;          ///< Irradiance of the sun.
   Spectrum sky;             ///< Irradiance of the sky without the sun.

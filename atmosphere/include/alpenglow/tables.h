@@ -22,7 +22,7 @@ enum class MieStorage : uint32_t {
 enum class Solver : uint32_t {
   Moments,   ///< Light on nodes of (r, mu_s); rays are integrated: docs/moment-solver.md.
   Standard,  ///< The paper's Algorithm 4.1; tables of rays.
-  // Simpler models, each as its paper has it, to compare with: docs/models.md.
+  // Simpler models, each as its paper has it, to compare with: docs/baselines.md.
   HoffmanPreetham,  ///< 2002: air of constant density, one event, in closed form. No table.
   ONeil,            ///< 2005: one event, TableSizes::stepCount points along a ray.
   Schafhitzel,      ///< 2007: one event, a table of (r, mu, mu_s) without the azimuth.
@@ -62,7 +62,7 @@ struct TableSizes {
   uint32_t stepCount = 0;
 };
 
-/// Most orders of a bake: more than any air needs, few enough to number the passes.
+/// Most orders of a bake: more than any medium needs, few enough to number the passes.
 inline constexpr uint32_t kMaxOrders = 1000;
 inline constexpr uint32_t kMaxLights = 4;
 inline constexpr uint32_t kMaxWavelengths = 12;
@@ -82,19 +82,19 @@ struct LightDesc {
 struct TableDesc {
   Solver solver = Solver::Moments;
   Quality quality = Quality::Default;  ///< Of Solver::Moments.
-  uint32_t orders = 0;                 ///< Most events of a path; 0: all (Moments), or 5 (Standard).
+  uint32_t orders = 0;  ///< Most events of a path; 0: all (Moments), or 5 (Standard).
   TableFormat format = TableFormat::Half;
-  MieStorage mie = MieStorage::Full;  ///< Of Solver::Standard.
-  uint32_t wavelengthCount = 0;       ///< 0 or 3. This version refuses others.
+  MieStorage mie = MieStorage::Full;            ///< Of Solver::Standard.
+  uint32_t wavelengthCount = 0;                 ///< 0 or 3. This version refuses others.
   double wavelengths_nm[kMaxWavelengths] = {};  ///< Must be 0 in this version.
-  TableSizes sizes;              ///< What is given beats the quality.
+  TableSizes sizes;                             ///< What is given beats the quality.
   LightDesc lights[kMaxLights];  ///< This version refuses all but lights[0] of kind Star.
   /// Bits of kTableEffects: nothing is baked, allocated or compiled for these. Views and shaders
   /// that read the tables are without the same. Of Solver::Moments. Default: none left out.
   EffectFlags disabledEffects = 0;
   /// Of Solver::Moments: zenith angles of the sun, radians, seen from wherever light is asked for;
-  /// the tables reach beyond them as far as rays do. Both 0: any. Light of other suns is that of
-  /// the nearest that the tables hold.
+  /// the tables reach beyond them as far as rays do. Both 0: any. Light of other sun elevations is
+  /// that of the nearest that the tables hold.
   double sunZenithFrom = 0.0, sunZenithTo = 0.0;
   CpuQueries cpuQueries = CpuQueries::None;  ///< Of Solver::Moments.
   bool keepOrders = false;  ///< Keeps the scratch tables, so that each order's can be read back.
@@ -161,7 +161,7 @@ enum TableId : uint32_t {
                        ///< solver; of Moments tau times the shell's thickness over the ray's
                        ///< length.
   kTableMoments,       ///< Mean radiance, its second moments and E, five tables below each other:
-                       ///< x mu_s, y r (shaders/glsl/physics/field.glsl). Moments; the next as well.
+                  ///< x mu_s, y r (shaders/glsl/physics/field.glsl). Moments; the next as well.
   kTableSource,        ///< Light that aerosols scatter, as a ratio, into angle gamma from the sun
                        ///< and azimuth psi about it: x gamma + gammas psi, y mu_s, z r, at the
                        ///< nodes.
@@ -182,14 +182,14 @@ enum TableId : uint32_t {
 ///
 /// The descriptor set has at binding 0 the uniform parameters; then of the moment solver 1 optical
 /// depth, 2 moments, 3 and 4 source; of the standard one 1 T, 2 E, 3 S, 4 single Mie (S again when
-/// packed); of the simpler models 1 T, then what docs/models.md says. A binding whose table
+/// packed); of the simpler models 1 T, then what docs/baselines.md says. A binding whose table
 /// TableDesc::disabledEffects leaves out holds the optical depths: a shader must not declare it
 /// (ALPENGLOW_WITHOUT_SOURCE and ALPENGLOW_WITHOUT_MULTIPLE of alpenglow/atmosphere.glsl). For
 /// compute and fragment stages. The images are in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL once
 /// they are Recorded.
 struct TablesInfo {
   TablesState state = TablesState::Empty;
-  TableDesc desc;  ///< Completed, as by resolveTableDesc.
+  TableDesc desc;                                    ///< Completed, as by resolveTableDesc.
   VkDescriptorSetLayout setLayout = VK_NULL_HANDLE;  ///< Identical for all tables of a context.
   VkDescriptorSet set = VK_NULL_HANDLE;              ///< For alpenglow/atmosphere.glsl.
   /// By TableId; a null name: not had. Those of single orders only with TableDesc::keepOrders.

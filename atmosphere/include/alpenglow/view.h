@@ -9,20 +9,21 @@ namespace alpenglow {
 inline namespace v1 {
 
 /// Opaque. Host access must be externally synchronised, except that after beginFrame the record
-/// functions of one view may be called in parallel with different command buffers, which must execute
-/// in the order in which the functions are declared below. Different views may be used in parallel.
+/// functions of one view may be called in parallel with different command buffers, which must
+/// execute in the order in which the functions are declared below. Different views may be used in
+/// parallel.
 struct View;
 
 inline constexpr uint32_t kMaxCameras = 4;
 
 enum class LightShaftMethod : uint32_t {
   Off,
-  /// Light-volume mesh over the shadow map: each crossing between light and shadow adds or subtracts
-  /// tabulated single scattering (after Billeter, Sintorn & Assarsson 2010, "Real-Time Volumetric
-  /// Shadows using Polygonal Light Volumes", HPG). The recommended method.
+  /// Light-volume mesh over the shadow map: each crossing between light and shadow adds or
+  /// subtracts tabulated single scattering (after Billeter, Sintorn & Assarsson 2010, "Real-Time
+  /// Volumetric Shadows using Polygonal Light Volumes", HPG). The recommended method.
   LightVolume,
   /// Shadow volumes of silhouette edges, from a geometry shader: Bruneton & Neyret 2008, section 5;
-  /// ZP+ of Hornus et al. 2005. Nested shadows count twice. Needs kCapabilityShadowVolumes.
+  /// ZP+ of Hornus et al. 2005. Nested shadows count twice. PlanRequest kCapabilityShadowVolumes.
   ShadowVolume,
   /// Steps along each ray, each tested against the shadow map.
   RayMarch,
@@ -35,14 +36,14 @@ struct LightShaftDesc {
   uint32_t meshSize = 0;       ///< LightVolume: vertices on a side, at most shadowMapSize; 0: 1024.
   uint32_t stepCount = 0;      ///< RayMarch: steps of a ray, at most 4096; 0: 32.
   uint32_t listLength = 0;     ///< Must be 0 in this version.
-  /// Share of multiple scattering that a ray loses when it loses all of its single scattering, at most
-  /// 1; 0: 0.7, the nearest to path-traced mountains; below 0: none. Not ShadowVolume.
+  /// Share of multiple scattering that a ray loses when it loses all of its single scattering, at
+  /// most 1; 0: 0.7, the nearest to path-traced mountains; below 0: none. Not ShadowVolume.
   double multipleLoss = 0.0;
   bool hostPipelines = false;  ///< Must be false in this version.
   bool closed = false;  ///< Casters are closed surfaces, counter-clockwise seen from outside: the
                         ///< shadow map leaves out the faces towards the sun.
-  bool adjacency = false;  ///< Casters are triangles with adjacency (alpenglow/mesh/adjacency.h), else
-                           ///< plain triangles. ShadowVolume needs it.
+  bool adjacency = false;  ///< Casters are triangles with adjacency (alpenglow/mesh/adjacency.h),
+                           ///< else plain triangles. ShadowVolume needs it.
   uint32_t vertexStride = 0;  ///< Bytes from one vertex of a caster to the next; 0: 12.
   uint32_t vertexOffset = 0;  ///< Of its position, three floats.
 };
@@ -65,8 +66,8 @@ enum class ColorSpace : uint32_t { Rec709, Rec2020, Xyz };  ///< Must be Rec709 
 /// What the picture looks like. Everything named here stays the host's.
 struct ViewDesc {
   VkFormat colorFormat = VK_FORMAT_UNDEFINED;  ///< Of the scope's colour attachment.
-  VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< Of its depth attachment; with one, only far pixels
-                                               ///< are drawn by recordSky.
+  VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< Of its depth attachment; with one, only far
+                                               ///< pixels are drawn by recordSky.
   VkFormat sceneDepthFormat = VK_FORMAT_UNDEFINED;  ///< Of FrameDesc::sceneDepth; 0: depthFormat.
   DepthConvention depth = DepthConvention::Standard;
   uint32_t samples = 0;  ///< MSAA of the scope: 1, 2, 4 ...; 0: 1. Aerial perspective needs 1.
@@ -79,21 +80,23 @@ struct ViewDesc {
   AerialPerspective aerialPerspective = AerialPerspective::Off;  ///< Not for fisheyes.
   /// Need aerial perspective and Solver::Moments.
   LightShaftDesc lightShafts;
-  uint32_t skyLightDegree = 0;     ///< Must be 0 in this version, as the next three.
+  uint32_t skyLightDegree = 0;  ///< Must be 0 in this version, as the next three.
   uint32_t environmentSize = 0;
   uint32_t environmentLevels = 0;
   uint32_t environmentFlags = 0;
-  /// Equirectangular albedo of the ground: u = 0 at longitude -180 degrees, v = 0 at the north pole;
-  /// with a sampler (repeat in u, clamp in v, linear, with mip levels) and its extent; layout 0:
-  /// SHADER_READ_ONLY_OPTIMAL. An sRGB image has an sRGB format. Null: the uniform albedo.
+  /// Equirectangular albedo of the ground: u = 0 at longitude -180 degrees, v = 0 at the north
+  /// pole; with a sampler (repeat in u, clamp in v, linear, with mip levels) and its extent; layout
+  /// 0: SHADER_READ_ONLY_OPTIMAL. An sRGB image has an sRGB format. Null: the uniform albedo.
   HostImage groundAlbedo;
-  /// Bits of kViewEffects, besides those that the tables lack: nothing of them is compiled, and a frame
-  /// that would show them is refused by beginFrame.
+  /// Bits of kViewEffects, besides those that the tables lack: nothing of them is compiled, and a
+  /// frame that would show them is refused by beginFrame.
   EffectFlags disabledEffects = 0;
-  double lutTolerance = 0.0;  ///< Must be 0 in this version: LUTs are reused only where they are exact.
-  uint32_t lutFrames = 0;     ///< Must be 0 or 1 in this version.
-  VkPipelineStageFlags2 readerStages = 0;  ///< That read our LUTs and shadow map; 0: compute and
-                                           ///< fragment. Always includes what the view itself needs.
+  double lutTolerance =
+      0.0;  ///< Must be 0 in this version: LUTs are reused only where they are exact.
+  uint32_t lutFrames = 0;  ///< Must be 0 or 1 in this version.
+  VkPipelineStageFlags2 readerStages =
+      0;  ///< That read our LUTs and shadow map; 0: compute and
+          ///< fragment. Always includes what the view itself needs.
 };
 
 /// Derives solver, effects and the LUTs' shapes from `tables`, which need not be baked, and makes
@@ -110,10 +113,11 @@ struct LightMap;
 
 /// One light of a frame; of TableDesc::lights at the same index.
 struct Light {
-  double direction[3] = {};  ///< Unit, world axes, towards the light. Zero: absent. Light 0 is required.
-  double discRadius = 0.0;   ///< Angular, radians; 0 draws no disc.
-  double dimming = 0.0;      ///< Share of its light that is taken away, 0 to 1: an eclipse, a fade.
-  double litFrom[3] = {};    ///< Must be 0 in this version, as the next two.
+  double direction[3] =
+      {};  ///< Unit, world axes, towards the light. Zero: absent. Light 0 is required.
+  double discRadius = 0.0;  ///< Angular, radians; 0 draws no disc.
+  double dimming = 0.0;     ///< Share of its light that is taken away, 0 to 1: an eclipse, a fade.
+  double litFrom[3] = {};   ///< Must be 0 in this version, as the next two.
   const LightMap* shadowMap = nullptr;
   const LightMap* clouds = nullptr;
 };
@@ -133,12 +137,12 @@ struct CasterPass {
 using DrawCastersFn = void (*)(void* user, VkCommandBuffer commands, const CasterPass& pass);
 
 struct Casters {
-  Box bounds;  ///< World. All casters lie in it, and the shadow map covers it.
-  DrawCastersFn draw = nullptr;  ///< Called by recordShadowMap (ShadowVolume: by recordLightShafts), on
-                                 ///< its thread. Null: nothing casts.
+  Box bounds;                    ///< World. All casters lie in it, and the shadow map covers it.
+  DrawCastersFn draw = nullptr;  ///< Called by recordShadowMap (ShadowVolume: by
+                                 ///< recordLightShafts), on its thread. Null: nothing casts.
   void* user = nullptr;
-  uint64_t version = 0;  ///< A new value whenever a caster has moved or changed: the shadow map is kept
-                         ///< while it, the bounds and the light stay. 0: drawn each frame.
+  uint64_t version = 0;  ///< A new value whenever a caster has moved or changed: the shadow map is
+                         ///< kept while it, the bounds and the light stay. 0: drawn each frame.
 };
 
 /// Everything about one frame. Read during beginFrame only, but for casters.draw and casters.user.
@@ -147,9 +151,10 @@ struct FrameDesc {
   World world;
   Camera cameras[kMaxCameras];  ///< Camera 0; the others must be absent in this version.
   Light lights[kMaxLights];     ///< Light 0; likewise.
-  double radianceScale = 0.0;   ///< Factor on all radiance, so that night survives half floats; 0: 1.
-  /// The host's opaque scene, for aerial perspective and light shafts: a view of the depth aspect, one
-  /// sample a pixel, usage SAMPLED and DEPTH_STENCIL_ATTACHMENT; layout 0:
+  double radianceScale =
+      0.0;  ///< Factor on all radiance, so that night survives half floats; 0: 1.
+  /// The host's opaque scene, for aerial perspective and light shafts: a view of the depth aspect,
+  /// one sample a pixel, usage SAMPLED and DEPTH_STENCIL_ATTACHMENT; layout 0:
   /// DEPTH_STENCIL_READ_ONLY_OPTIMAL. Its writes are visible to fragment shader reads and early
   /// fragment tests when recordLightShafts or, without shafts, the rendering scope begins.
   HostImage sceneDepth;
@@ -158,8 +163,8 @@ struct FrameDesc {
   uint32_t horizonCount = 0;
 };
 
-/// Index of FrameWork::images. kViewSceneDepth is the host's own, in the state that it must have from
-/// recordLightShafts to recordSky.
+/// Index of FrameWork::images. kViewSceneDepth is the host's own, in the state that it must have
+/// from recordLightShafts to recordSky.
 enum ViewImage : uint32_t {
   kViewSkyLut,     ///< Light that needs no phase function of aerosols.
   kViewSkyLutMie,  ///< Single scattering of aerosols, without their phase function.
@@ -202,21 +207,21 @@ enum ViewSet : uint32_t {
 
 /// What beginFrame answers; all zero when it fails.
 struct FrameWork {
-  RecordFlags record = 0;  ///< The record functions that will record something this frame.
+  RecordFlags record = 0;       ///< The record functions that will record something this frame.
   VisibilityFlags visible = 0;  ///< Conservative; kVisibleScene with a scene depth.
   double altitude_m = 0.0;      ///< Of camera 0.
-  /// On a surface that faces the light, at camera 0, in the shade of the planet alone: luminance-weighted
-  /// `color` without radianceScale. 0 below the horizon.
+  /// On a surface that faces the light, at camera 0, in the shade of the planet alone:
+  /// luminance-weighted `color` without radianceScale. 0 below the horizon.
   double illuminance[kMaxLights] = {};
   double color[kMaxLights][3] = {};  ///< The same as linear Rec.709, times radianceScale.
   VkDescriptorSet sets[kViewSetCount] = {};
   ImageInfo images[kViewImageCount];  ///< By ViewImage.
 };
 
-/// CPU only: fixes this frame for the view. Makes what follows the extent of the scene's depth again
-/// when that has changed. On failure the record functions of this frame record nothing and return
-/// NotReady, so that one check suffices; NotReady also while the tables are not baked. `work` may be
-/// null. A view may begin again within a frame: what was recorded before stays valid.
+/// CPU only: fixes this frame for the view. Makes what follows the extent of the scene's depth
+/// again when that has changed. On failure the record functions of this frame record nothing and
+/// return NotReady, so that one check suffices; NotReady also while the tables are not baked.
+/// `work` may be null. A view may begin again within a frame: what was recorded before stays valid.
 ALPENGLOW_API Status beginFrame(View* view, const FrameDesc& desc, FrameWork* work);
 
 // The record functions return Ok without recording anything where the frame doesn't need it. They
@@ -229,12 +234,12 @@ ALPENGLOW_API Status recordShadowMap(View* view, VkCommandBuffer commands);
 /// Outside rendering scopes, after the host has drawn its scene's depth: what the shadows take from
 /// each pixel's ray.
 ALPENGLOW_API Status recordLightShafts(View* view, VkCommandBuffer commands);
-/// Inside the host's rendering scope: over every pixel of the viewport that the host's scene covers,
-/// colour times transmittance plus inscattering. The host has drawn its opaque scene in linear radiance
-/// times radianceScale; the scope's depth attachment, if any, is read-only.
+/// Inside the host's rendering scope: over every pixel of the viewport that the host's scene
+/// covers, colour times transmittance plus inscattering. The host has drawn its opaque scene in
+/// linear radiance times radianceScale; the scope's depth attachment, if any, is read-only.
 ALPENGLOW_API Status recordAerialPerspective(View* view, VkCommandBuffer commands);
-/// Inside the host's rendering scope: sky, sun disc and ground in the pixels that the scene leaves free;
-/// before or after aerial perspective. At most 64 draws.
+/// Inside the host's rendering scope: sky, sun disc and ground in the pixels that the scene leaves
+/// free; before or after aerial perspective. At most 64 draws.
 ALPENGLOW_API Status recordSky(View* view, VkCommandBuffer commands);
 
 /// In DrawCastersFn: what is drawn next lies at origin + rotation p for local positions p, in world

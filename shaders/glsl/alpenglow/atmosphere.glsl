@@ -4,8 +4,8 @@
 // MieStorage::Packed (a bool, may be a specialization constant; false unless defined before); for those of a
 // simpler model ALPENGLOW_SOLVER_HOFFMAN_PREETHAM, _ONEIL, _SCHAFHITZEL or _HILLAIRE.
 //
-// For tables made without effects (TableDesc::without) define ALPENGLOW_WITHOUT_MULTIPLE or, without Mie,
-// ALPENGLOW_WITHOUT_SOURCE: the binding of a table that isn't there must not be declared. The macros of
+// For tables made without effects (TableDesc::disabledEffects) define ALPENGLOW_WITHOUT_MULTIPLE or, without
+// Mie, ALPENGLOW_WITHOUT_SOURCE: the binding of a table that isn't there must not be declared. The macros of
 // physics/effects.glsl, defined as false or as specialization constants, take away what else is not wanted.
 //
 // Every answer is per unit solar irradiance, in the channels of the tables: multiply it with the
@@ -29,7 +29,7 @@
     defined(ALPENGLOW_SOLVER_SCHAFHITZEL) || defined(ALPENGLOW_SOLVER_HILLAIRE)
 #define ALPENGLOW_TABLE_READS
 #include "physics/physics.glsl"
-#include "alpenglow/model_tables.glsl"
+#include "alpenglow/baseline_tables.glsl"
 #else
 #include "physics/physics.glsl"
 #include "alpenglow/moment_tables.glsl"
@@ -53,7 +53,7 @@ void alpenglowMoveObserver(vec3 offset, inout vec3 up, inout float altitude) {
   up = normalize(there);
 }
 
-// Radiance scattered in the air along the whole ray, to the ground or to space. No sun disc.
+// Radiance scattered in the atmosphere along the whole ray, to the ground or to space. No sun disc.
 Spectrum alpenglowSkyRadiance(Ray ray) {
   Spectrum s = alpenglowLightOfRay(ray);
   return ray.inAtmosphere ? s : SPECTRUM(0.0);
@@ -74,12 +74,12 @@ Spectrum alpenglowTransmittance(Ray ray, float distance_) {
 #endif
 }
 
-// Aerial perspective: radiance scattered in the air between the observer and a point of the ray, and
+// Aerial perspective: radiance scattered in the atmosphere between the observer and a point of the ray, and
 // the transmittance to dim what is there with. Use it before blending for transparent objects.
 Spectrum alpenglowRadianceToPoint(Ray ray, float distance_, out Spectrum transmittance) {
   float inside = alpenglowInside(ray, distance_);
 #ifdef ALPENGLOW_MARCHES
-  ModelLight march = alpenglowMarch(ray, inside);
+  BaselineLight march = alpenglowMarch(ray, inside);
   transmittance = exp(-march.depth);
   Spectrum s = march.light;
 #else

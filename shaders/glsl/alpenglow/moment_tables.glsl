@@ -17,21 +17,21 @@ Spectrum readSource(vec3 uvw) { return textureLod(alpenglowSourceTable, uvw, 0.0
 #endif
 
 #include "physics/field_lookup.glsl"
-#include "physics/path_light.glsl"
+#include "physics/inscattering.glsl"
 
 layout(set = ALPENGLOW_SET, binding = 0, std140) uniform AlpenglowAtmosphere {
   Medium alpenglowMedium;
   MomentShape alpenglowShape;
 };
 
-// Mesa's software driver takes a uniform that ends a loop for a constant, and compiles the shader anew, and keeps
+// Mesa's software driver takes a uniform that ends a loop for a constant, and recompiles the shader, and keeps
 // it, each time the uniform is bound. What a texture's size is part of it leaves alone; the shift is always 0.
 int alpenglowViewPanels() {
   return int(alpenglowShape.viewPanels) + (textureSize(alpenglowDepthTable, 0).x >> 24);
 }
 
 PathLight alpenglowPathLight(Ray ray, float inside) {
-  return lightOfPath(alpenglowMedium, alpenglowShape, ray, inside, alpenglowViewPanels(),
+  return integrateInscattering(alpenglowMedium, alpenglowShape, ray, inside, alpenglowViewPanels(),
                      true, ALPENGLOW_MULTIPLE);
 }
 

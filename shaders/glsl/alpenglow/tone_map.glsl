@@ -1,5 +1,6 @@
-// Tone maps, a channel at a time: exposed linear radiance in, display-linear [0, 1] out (before the sRGB curve).
-// Stands alone. The text compiles as C++ too, where ALPENGLOW_FN and min, max and pow are the includer's.
+// Tone maps, a channel at a time: exposed linear radiance in, display-linear [0, 1] out (before the sRGB
+// curve). Stands alone. The text compiles as C++ too, where ALPENGLOW_FN and min, max and pow are the
+// includer's.
 #ifndef ALPENGLOW_TONE_MAP
 #define ALPENGLOW_TONE_MAP
 

@@ -1,31 +1,32 @@
-// Light of the air up to any point of a pixel's ray: from this frame's air volume (ALPENGLOW_FROM_VOLUME), or
-// by integration through the tables. Distances are metres from the observer, cut at the end of the ray.
+// Light of the atmosphere up to any point of a pixel's ray: from this frame's aerial-perspective LUT
+// (ALPENGLOW_FROM_AERIAL_PERSPECTIVE_LUT), or by integration through the tables. Distances are metres from the
+// observer, cut at the end of the ray.
 
-#ifdef ALPENGLOW_FROM_VOLUME
-#include "common/air_volume.glsl"
+#ifdef ALPENGLOW_FROM_AERIAL_PERSPECTIVE_LUT
+#include "common/aerial_perspective_lut.glsl"
 #else
-struct AirRay {
+struct AerialRay {
   Ray ray;
 };
-struct AirLight {
+struct AerialLight {
   Spectrum single;
   Spectrum multiple;
   Spectrum depth;
 };
 
-AirLight alpenglowAirLight(AirRay air, float distance_) {
-  float inside = alpenglowInside(air.ray, distance_);
-  AirLight light;
+AerialLight alpenglowAerialLight(AerialRay aerial, float distance_) {
+  float inside = alpenglowInside(aerial.ray, distance_);
+  AerialLight light;
 #ifndef ALPENGLOW_PATH_LIGHT
   Spectrum transmittance;
   light.single = SPECTRUM(0.0);  // all orders come in one
-  light.multiple = alpenglowRadianceToPoint(air.ray, distance_, transmittance);
+  light.multiple = alpenglowRadianceToPoint(aerial.ray, distance_, transmittance);
   light.depth = -log(max(transmittance, SPECTRUM(1e-30)));
 #else
-  PathLight path = alpenglowPathLight(air.ray, inside);
+  PathLight path = alpenglowPathLight(aerial.ray, inside);
   light.multiple = path.multiple;
   path.multiple = SPECTRUM(0.0);
-  light.single = radianceOfPath(alpenglowMedium, path, air.ray.nu);
+  light.single = radianceOfPath(alpenglowMedium, path, aerial.ray.nu);
   light.depth = path.depth;
 #endif
   if (inside <= 0.0) {
@@ -37,11 +38,11 @@ AirLight alpenglowAirLight(AirRay air, float distance_) {
 }
 
 #ifdef ALPENGLOW_PATH_LIGHT
-Spectrum alpenglowAirSingle(AirRay air, float distance_) {
-  float inside = alpenglowInside(air.ray, distance_);
-  PathLight light = lightOfPath(alpenglowMedium, alpenglowShape, air.ray, inside,
+Spectrum alpenglowAerialSingle(AerialRay aerial, float distance_) {
+  float inside = alpenglowInside(aerial.ray, distance_);
+  PathLight light = integrateInscattering(alpenglowMedium, alpenglowShape, aerial.ray, inside,
                                 alpenglowViewPanels(), true, false);
-  return inside > 0.0 ? radianceOfPath(alpenglowMedium, light, air.ray.nu) : SPECTRUM(0.0);
+  return inside > 0.0 ? radianceOfPath(alpenglowMedium, light, aerial.ray.nu) : SPECTRUM(0.0);
 }
 #endif
 #endif

@@ -1,7 +1,7 @@
-// Which effects the text is compiled for (alpenglow/effects.h). Literals or specialization constants that the
-// includer may define, common/effect_constants.glsl for our own shaders; what is false leaves nothing
-// behind. Tables without a table of sources, or of moments, are a matter of the text, since a shader needs what
-// it declares: ALPENGLOW_WITHOUT_SOURCE (no aerosols), ALPENGLOW_WITHOUT_MULTIPLE.
+// Which effects the code is compiled for (alpenglow/effects.h). Literals or specialization constants that the
+// includer may define, common/effect_constants.glsl for our own shaders; what is false leaves nothing behind.
+// Tables without a table of sources, or of moments, are fixed at compile time, since a shader needs what it
+// declares: ALPENGLOW_WITHOUT_SOURCE (no aerosols), ALPENGLOW_WITHOUT_MULTIPLE.
 #ifdef ALPENGLOW_WITHOUT_SOURCE
 #define ALPENGLOW_MIE false
 #endif

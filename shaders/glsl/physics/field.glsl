@@ -3,11 +3,11 @@
 // what aerosols scatter into each direction. All per unit solar irradiance.
 
 // Texels and the constants of the mappings, all computed in double by the bake
-// (atmosphere/bake/moment_shape.cpp). Laid out as std140 has it.
+// (atmosphere/tables/moment_shape.cpp). Laid out as std140 has it.
 struct MomentShape {
   Real depthMu, depthH;    // texels of the table of optical depths
   Real depthSharpness;     // c: u_mu = asinh(c mu) / asinh(c)
-  Real heightScale;        // a: of the altitudes of both tables, see depthUnit and nodeUnitR, m
+  Real heightScale;        // a: of the altitudes of both tables, see depthUv and nodeUr, m
   Real nodesR, nodesMuS;   // nodes
   Real fieldR, fieldMuS;   // texels of a layer of the table of moments: nodes, and between them
   Real sunCenter, sunWidth;  // theta_s = center + width sinh(low + u range), radians
@@ -16,7 +16,7 @@ struct MomentShape {
   Real sourceSharpness;    // c: u_gamma = asinh(c gamma / pi) / asinh(c)
   Real peakAsymmetry;      // of the shape G(nu) that the sources are stored relative to
   Real peakShare;
-  Real ringsSky, ringsLimb, ringsGround;  // of incoming light, see makeRing
+  Real zenithsSky, zenithsLimb, zenithsGround;  // of incoming light, see makeZenithAngle
   Real azimuths;
   Real degree;             // of the spherical harmonics
   Real taper;              // of the highest ones, where a narrow peak would ring
@@ -43,7 +43,7 @@ ALPENGLOW_FN Real arcCosine(Real x) {
 // --- Optical depth towards the top, of rays that rise (mu >= 0): those that sink are differences and
 // sums of such (depthTowardsTop), which keeps the perigee exact.
 
-ALPENGLOW_FN Real2 depthUnit(IN(Medium) m, IN(MomentShape) s, Real h, Real mu) {
+ALPENGLOW_FN Real2 depthUv(IN(Medium) m, IN(MomentShape) s, Real h, Real mu) {
   return Real2(asinh(s.depthSharpness * mu) / asinh(s.depthSharpness),
                asinh(h / s.heightScale) / asinh(m.thickness / s.heightScale));
 }
@@ -56,7 +56,7 @@ ALPENGLOW_FN Real2 depthHMu(IN(Medium) m, IN(MomentShape) s, Real2 u) {
 // What the table holds there: the mean extinction along the ray, as the optical depth of a ray as long as the
 // shell is thick. The depth itself goes to 0 at the top with the ray's length, and the interpolation of its
 // logarithm there had the sun 23 % off in air that is dense up to the top.
-ALPENGLOW_FN Spectrum depthAtUnit(IN(Medium) m, IN(MomentShape) s, Real2 u) {
+ALPENGLOW_FN Spectrum depthAtUv(IN(Medium) m, IN(MomentShape) s, Real2 u) {
   Real2 at = depthHMu(m, s, u);
   Real h = min(at[0], m.thickness * REAL(0.999755859375));  // at the top itself there is no ray
   Real length_ = distanceToTop(m, h, at[1]);
@@ -64,7 +64,7 @@ ALPENGLOW_FN Spectrum depthAtUnit(IN(Medium) m, IN(MomentShape) s, Real2 u) {
 }
 
 ALPENGLOW_FN Real2 depthCoordinate(IN(Medium) m, IN(MomentShape) s, Real h, Real mu) {
-  Real2 u = depthUnit(m, s, h, mu);
+  Real2 u = depthUv(m, s, h, mu);
   return Real2(insetCoordinate(u[0], s.depthMu), insetCoordinate(u[1], s.depthH));
 }
 
@@ -74,14 +74,14 @@ ALPENGLOW_FN Real2 depthCoordinate(IN(Medium) m, IN(MomentShape) s, Real h, Real
 
 // Below this a mean radiance or irradiance is dark: its logarithm is cut here, far under a starlit night
 // (per unit solar irradiance).
-ALPENGLOW_FN Real darkness() { return REAL(1e-30); }
+const Real kMinRadiance = REAL(1e-30);
 
 // The highest node: a bit below the top, where the light from above has gone to nothing, and its logarithm
 // with it.
 ALPENGLOW_FN Real highestNode(IN(Medium) m) { return m.thickness * REAL(0.99609375); }
 
 // As the square root of the altitude near the ground, as the horizon sinks, and as its logarithm above.
-ALPENGLOW_FN Real nodeUnitR(IN(Medium) m, IN(MomentShape) s, Real h) {
+ALPENGLOW_FN Real nodeUr(IN(Medium) m, IN(MomentShape) s, Real h) {
   Real most = asinh(sqrt(highestNode(m) / s.heightScale));
   return min(asinh(sqrt(max(h, REAL(0.0)) / s.heightScale)) / most, REAL(1.0));
 }
@@ -92,7 +92,7 @@ ALPENGLOW_FN Real nodeH(IN(Medium) m, IN(MomentShape) s, Real u) {
 }
 
 // Densest around the terminator, where the field falls by orders of magnitude.
-ALPENGLOW_FN Real nodeUnitMuS(IN(MomentShape) s, Real muS) {
+ALPENGLOW_FN Real nodeUmuS(IN(MomentShape) s, Real muS) {
   Real theta = arcCosine(clamp(muS, REAL(-1.0), REAL(1.0)));
   return clamp((asinh((theta - s.sunCenter) / s.sunWidth) - s.sunLow) / s.sunRange, REAL(0.0),
                REAL(1.0));
@@ -103,14 +103,14 @@ ALPENGLOW_FN Real nodeMuS(IN(MomentShape) s, Real u) {
   return cos(clamp(theta, REAL(0.0), REAL(ALPENGLOW_PI)));
 }
 
-ALPENGLOW_FN Real2 nodeUnit(IN(Medium) m, IN(MomentShape) s, Real h, Real muS) {
-  return Real2(nodeUnitMuS(s, muS), nodeUnitR(m, s, h));
+ALPENGLOW_FN Real2 nodeUv(IN(Medium) m, IN(MomentShape) s, Real h, Real muS) {
+  return Real2(nodeUmuS(s, muS), nodeUr(m, s, h));
 }
 
 // Texture coordinate in the first layer of the table of moments; the next lie 1 / layers on.
-ALPENGLOW_FN Real2 fieldCoordinate(IN(MomentShape) s, Real2 unit) {
-  return Real2(insetCoordinate(unit[0], s.fieldMuS),
-               insetCoordinate(unit[1], s.fieldR) / s.layers);
+ALPENGLOW_FN Real2 fieldCoordinate(IN(MomentShape) s, Real2 uv) {
+  return Real2(insetCoordinate(uv[0], s.fieldMuS),
+               insetCoordinate(uv[1], s.fieldR) / s.layers);
 }
 
 // --- Sources: directions by the angle gamma from the sun (from the point opposite it, for aerosols that

@@ -44,7 +44,7 @@ ALPENGLOW_FN Spectrum readLayer(IN(MomentShape) s, Real2 node, Real layer) {
 
 // E of the sky, equation 15, on a horizontal surface.
 ALPENGLOW_FN Spectrum fieldIrradiance(IN(Medium) m, IN(MomentShape) s, Real h, Real muS) {
-  return exp(readLayer(s, fieldCoordinate(s, nodeUnit(m, s, h, muS)), REAL(4.0)));
+  return exp(readLayer(s, fieldCoordinate(s, nodeUv(m, s, h, muS)), REAL(4.0)));
 }
 
 // Rayleigh's part of J over N: its phase function is a quadratic form, so its integral is one of the second
@@ -60,11 +60,11 @@ ALPENGLOW_FN Spectrum rayleighSource(IN(MomentShape) s, Real2 node, Real3 v) {
 
 #ifndef ALPENGLOW_WITHOUT_SOURCE
 // The aerosols' part of it, from the table of sources at node `unit`.
-ALPENGLOW_FN Spectrum mieSource(IN(MomentShape) s, IN(SourceRay) ray, Real2 unit, Real mu, Real muS) {
+ALPENGLOW_FN Spectrum mieSource(IN(MomentShape) s, IN(SourceRay) ray, Real2 uv, Real mu, Real muS) {
   Real slice = sourceSlice(s, ray, mu, muS);
   Real lower = min(floor(slice), s.sourcePsi - REAL(2.0));
-  Real3 at = Real3(ray.x + lower / s.sourcePsi, insetCoordinate(unit[0], s.nodesMuS),
-                   insetCoordinate(unit[1], s.nodesR));
+  Real3 at = Real3(ray.x + lower / s.sourcePsi, insetCoordinate(uv[0], s.nodesMuS),
+                   insetCoordinate(uv[1], s.nodesR));
   Real3 step = Real3(REAL(1.0) / s.sourcePsi, REAL(0.0), REAL(0.0));
   return ray.shape * mix(readSource(at), readSource(at + step), slice - lower);
 }
@@ -73,14 +73,14 @@ ALPENGLOW_FN Spectrum mieSource(IN(MomentShape) s, IN(SourceRay) ray, Real2 unit
 // J of equation 7 at a point of a ray.
 ALPENGLOW_FN Spectrum fieldSource(IN(Medium) m, IN(MomentShape) s, IN(SourceRay) ray, Real h, Real mu,
                                   Real muS) {
-  Real2 unit = nodeUnit(m, s, h, muS);
-  Real2 node = fieldCoordinate(s, unit);
+  Real2 uv = nodeUv(m, s, h, muS);
+  Real2 node = fieldCoordinate(s, uv);
   Spectrum sum = SPECTRUM(REAL(0.0));
   if (ALPENGLOW_RAYLEIGH)
     sum = m.rayleighScattering * (rayleighDensity(m, h) * REAL(0.75)) *
           rayleighSource(s, node, localDirection(mu, muS, ray.nu));
 #ifndef ALPENGLOW_WITHOUT_SOURCE
-  if (ALPENGLOW_MIE) sum += m.mieScattering * mieDensity(m, h) * mieSource(s, ray, unit, mu, muS);
+  if (ALPENGLOW_MIE) sum += m.mieScattering * mieDensity(m, h) * mieSource(s, ray, uv, mu, muS);
 #endif
   return exp(readLayer(s, node, REAL(0.0))) * sum;
 }

@@ -10,13 +10,13 @@ struct TableShape {
 };
 
 ALPENGLOW_FN Real2 opticalDepthCoordinate(IN(Medium) m, IN(TableShape) shape, Real h, Real mu) {
-  Real2 u = transmittanceUnit(m, h, mu);
+  Real2 u = transmittanceUv(m, h, mu);
   return Real2(insetCoordinate(u[0], shape.transmittanceMu),
                insetCoordinate(u[1], shape.transmittanceR));
 }
 
 ALPENGLOW_FN Real2 irradianceCoordinate(IN(Medium) m, IN(TableShape) shape, Real h, Real muS) {
-  Real2 u = irradianceUnit(m, h, muS);
+  Real2 u = irradianceUv(m, h, muS);
   return Real2(insetCoordinate(u[0], shape.irradianceMuS),
                insetCoordinate(u[1], shape.irradianceR));
 }
@@ -25,16 +25,16 @@ ALPENGLOW_FN Real2 irradianceCoordinate(IN(Medium) m, IN(TableShape) shape, Real
 // coordinate in the slice of nu = -1; nuSlice has the way from there.
 ALPENGLOW_FN Real3 scatteringCoordinate(IN(Medium) m, IN(TableShape) shape, Real h, Real mu,
                                         Real muS, bool hitsGround) {
-  Real uMuS = insetCoordinate(scatteringUnitMuS(muS), shape.scatteringMuS);
-  Real uMu = scatteringUnitMu(m, h, mu, hitsGround);
+  Real uMuS = insetCoordinate(scatteringUmuS(muS), shape.scatteringMuS);
+  Real uMu = scatteringUmu(m, h, mu, hitsGround);
   return Real3(uMuS / shape.scatteringNu,
                scatteringCoordinateMu(uMu, hitsGround, shape.scatteringMu),
-               insetCoordinate(scatteringUnitR(m, h), shape.scatteringR));
+               insetCoordinate(scatteringUr(m, h), shape.scatteringR));
 }
 
 // Offset in x to the slice below nu, and the share of the slice above it, whose offset is 1 / nu more.
 ALPENGLOW_FN Real2 nuSlice(IN(TableShape) shape, Real nu) {
-  Real slice = scatteringUnitNu(nu) * (shape.scatteringNu - REAL(1.0));
+  Real slice = scatteringUnu(nu) * (shape.scatteringNu - REAL(1.0));
   Real lower = min(floor(slice), shape.scatteringNu - REAL(2.0));
   return Real2(lower / shape.scatteringNu, slice - lower);
 }
@@ -95,25 +95,25 @@ ALPENGLOW_FN Spectrum scatteringOfRay(IN(Medium) m, IN(TableShape) shape, Real h
   return scatteringFromTexels(m, c, mie, nu);
 }
 
-#ifdef ALPENGLOW_SLICE_READS
+#ifdef ALPENGLOW_SKY_VIEW_READS
 
-// The same for the rays of one point under one sun, from a slice of S at its r and mu_s: x = nu, y = mu,
-// the includer's readSlice and readSliceMie. Interpolation commutes: it is the same number, of two fetches
+// The same for the rays of one point under one sun, from the LUT of S at its r and mu_s: x = nu, y = mu,
+// the includer's readSkyView and readSkyViewMie. Interpolation commutes: it is the same number, of two fetches
 // in two dimensions instead of four in three.
-ALPENGLOW_FN Spectrum scatteringOfRayInSlice(IN(Medium) m, IN(TableShape) shape, Real h, Real mu,
+ALPENGLOW_FN Spectrum scatteringOfRayInSkyView(IN(Medium) m, IN(TableShape) shape, Real h, Real mu,
                                              Real nu, bool hitsGround) {
-  Real2 at = Real2(insetCoordinate(scatteringUnitNu(nu), shape.scatteringNu),
-                   scatteringCoordinateMu(scatteringUnitMu(m, h, mu, hitsGround), hitsGround,
+  Real2 at = Real2(insetCoordinate(scatteringUnu(nu), shape.scatteringNu),
+                   scatteringCoordinateMu(scatteringUmu(m, h, mu, hitsGround), hitsGround,
                                           shape.scatteringMu));
   Spectrum mie = SPECTRUM(REAL(0.0));
-  if (!ALPENGLOW_MIE_PACKED) mie = readSliceMie(at);
-  return scatteringFromTexels(m, readSlice(at), mie, nu);
+  if (!ALPENGLOW_MIE_PACKED) mie = readSkyViewMie(at);
+  return scatteringFromTexels(m, readSkyView(at), mie, nu);
 }
 
-#endif  // ALPENGLOW_SLICE_READS
+#endif  // ALPENGLOW_SKY_VIEW_READS
 
 // S|x - T(x, xs) S|xs, equation 13: light scattered in the first d metres of a ray. One decision about
-// the horizon serves both ends. Where d reaches the end of the ray, S|xs is zero.
+// the horizon is used for both ends. Where d reaches the end of the ray, S|xs is zero.
 ALPENGLOW_FN Spectrum scatteringOfSegment(IN(Medium) m, IN(TableShape) shape, IN(Ray) ray, Real d,
                                           Spectrum transmittance) {
   Spectrum all = scatteringOfRay(m, shape, ray.h, ray.mu, ray.muS, ray.nu, ray.hitsGround);

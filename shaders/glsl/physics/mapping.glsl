@@ -4,14 +4,14 @@
 // Texel-centre inset: u in [0, 1] to a texture coordinate, and texel index to u.
 ALPENGLOW_FN Real insetCoordinate(Real u, Real n) { return (REAL(0.5) + u * (n - REAL(1.0))) / n; }
 
-ALPENGLOW_FN Real unitFromTexel(Real i, Real n) { return i / (n - REAL(1.0)); }
+ALPENGLOW_FN Real texelToU(Real i, Real n) { return i / (n - REAL(1.0)); }
 
 // --- T: (mu, r). u_r = sqrt(h / thickness); u_mu clusters texels at the horizon.
 
 // tan(1.5): the ends of u_mu lie at +-1.5 rad of the arc tangent that spreads the horizon.
 ALPENGLOW_FN Real transmittanceTan() { return REAL(14.1014199471717194); }
 
-ALPENGLOW_FN Real2 transmittanceUnit(IN(Medium) m, Real h, Real mu) {
+ALPENGLOW_FN Real2 transmittanceUv(IN(Medium) m, Real h, Real mu) {
   Real x = (mu - m.transmittanceMuMin) / (REAL(1.0) - m.transmittanceMuMin);
   return Real2(clamp(atan(x * transmittanceTan()) / REAL(1.5), REAL(0.0), REAL(1.0)),
                sqrt(clamp(h / m.thickness, REAL(0.0), REAL(1.0))));
@@ -25,7 +25,7 @@ ALPENGLOW_FN Real2 transmittanceHMu(IN(Medium) m, Real2 u) {
 
 // --- E: (mu_s, r), linear; below mu_s = -0.2 it holds its last value.
 
-ALPENGLOW_FN Real2 irradianceUnit(IN(Medium) m, Real h, Real muS) {
+ALPENGLOW_FN Real2 irradianceUv(IN(Medium) m, Real h, Real muS) {
   return Real2(clamp((muS + REAL(0.2)) / REAL(1.2), REAL(0.0), REAL(1.0)),
                clamp(h / m.thickness, REAL(0.0), REAL(1.0)));
 }
@@ -37,7 +37,7 @@ ALPENGLOW_FN Real2 irradianceHMuS(IN(Medium) m, Real2 u) {
 // --- S: (r, mu, mu_s, nu).
 
 // u_r = rho / H.
-ALPENGLOW_FN Real scatteringUnitR(IN(Medium) m, Real h) {
+ALPENGLOW_FN Real scatteringUr(IN(Medium) m, Real h) {
   return clamp(horizonRho(m, h) / m.topRho, REAL(0.0), REAL(1.0));
 }
 
@@ -50,7 +50,7 @@ ALPENGLOW_FN Real scatteringH(IN(Medium) m, Real uR) {
 // u_mu: 0 (horizon) to 1/2 (nadir) for rays that hit the ground, 1/2 (zenith) to 1 (horizon) for
 // those that don't; discontinuous at the horizon on purpose. The ground's branch is
 // 1/2 + (r mu + sqrt(Delta)) / (2 rho), which is 0/0 at rho = 0 and cancels: this form doesn't.
-ALPENGLOW_FN Real scatteringUnitMu(IN(Medium) m, Real h, Real mu, bool hitsGround) {
+ALPENGLOW_FN Real scatteringUmu(IN(Medium) m, Real h, Real mu, bool hitsGround) {
   Real rho = horizonRho(m, h);
   Real rMu = radiusAt(m, h) * mu;
   Real delta = max(rMu * rMu - rho * rho, REAL(0.0));
@@ -92,13 +92,13 @@ ALPENGLOW_FN Real scatteringCoordinateMu(Real uMu, bool hitsGround, Real n) {
   return (texel + REAL(0.5)) / n;
 }
 
-ALPENGLOW_FN Real scatteringUnitMuFromTexel(Real i, bool hitsGround, Real n) {
+ALPENGLOW_FN Real texelToScatteringUmu(Real i, bool hitsGround, Real n) {
   Real last = REAL(0.5) * n - REAL(1.0);
   return hitsGround ? REAL(0.5) * i / last : REAL(0.5) + REAL(0.5) * (i - REAL(0.5) * n) / last;
 }
 
 // u_mus = (1 - exp(-3 mu_s - 0.6)) / (1 - exp(-3.6)); below mu_s = -0.2 it holds its last value.
-ALPENGLOW_FN Real scatteringUnitMuS(Real muS) {
+ALPENGLOW_FN Real scatteringUmuS(Real muS) {
   return clamp((REAL(1.0) - exp(REAL(-3.0) * muS - REAL(0.6))) /
                    (REAL(1.0) - exp(REAL(-3.6))),
                REAL(0.0), REAL(1.0));
@@ -110,6 +110,6 @@ ALPENGLOW_FN Real scatteringMuS(Real uMuS) {
 }
 
 // u_nu = (1 + nu) / 2.
-ALPENGLOW_FN Real scatteringUnitNu(Real nu) {
+ALPENGLOW_FN Real scatteringUnu(Real nu) {
   return clamp(REAL(0.5) * (REAL(1.0) + nu), REAL(0.0), REAL(1.0));
 }

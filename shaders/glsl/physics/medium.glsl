@@ -68,7 +68,7 @@ ALPENGLOW_FN Spectrum mieExtinction(IN(Medium) m, Real h) {
 }
 
 // Extinction of what thins out exponentially, and of the tent, 1/m. They are apart because they are
-// smooth in different stretches of a ray.
+// smooth in different segments of a ray.
 ALPENGLOW_FN Spectrum exponentialExtinction(IN(Medium) m, Real h) {
   return rayleighExtinction(m, h) + mieExtinction(m, h);
 }

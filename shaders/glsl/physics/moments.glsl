@@ -10,9 +10,9 @@
 //   Real2 fetchRule(int x, int y); Real fetchLegendre(int x, int y), fetchRotation(int x, int y)
 // A node's index is i_mus + nodesMuS * i_r.
 
-// Single scattering is bright around the sun: order 1 takes twice the rings, and its phase functions at
+// Single scattering is bright around the sun: order 1 takes twice the zenith angles, and its phase functions at
 // kFineAzimuths times the azimuths.
-const int kFineRings = 2;
+const int kFineZeniths = 2;
 const int kFineAzimuths = 4;
 
 struct NodePoint {
@@ -25,16 +25,16 @@ ALPENGLOW_FN NodePoint nodePoint(IN(Medium) m, IN(MomentShape) s, int node) {
   NodePoint p;
   int sizeMuS = int(s.nodesMuS);
   p.r = node / sizeMuS;
-  p.h = nodeH(m, s, unitFromTexel(Real(p.r), s.nodesR));
-  p.muS = nodeMuS(s, unitFromTexel(Real(node - p.r * sizeMuS), s.nodesMuS));
+  p.h = nodeH(m, s, texelToU(Real(p.r), s.nodesR));
+  p.muS = nodeMuS(s, texelToU(Real(node - p.r * sizeMuS), s.nodesMuS));
   return p;
 }
 
 // --- Pass T: optical depth towards the top.
 
 ALPENGLOW_FN Spectrum depthOfTexel(IN(Medium) m, IN(MomentShape) s, int x, int y) {
-  return depthAtUnit(
-      m, s, Real2(unitFromTexel(Real(x), s.depthMu), unitFromTexel(Real(y), s.depthH)));
+  return depthAtUv(
+      m, s, Real2(texelToU(Real(x), s.depthMu), texelToU(Real(y), s.depthH)));
 }
 
 // --- Pass Q: quadrature in zenith angle.
@@ -58,23 +58,23 @@ ALPENGLOW_FN Real2 gaussLegendre(int i, int n) {
   return Real2(REAL(0.5) - REAL(0.5) * x, weight);
 }
 
-ALPENGLOW_FN int ringCount(IN(MomentShape) s, int fine) {
-  return (int(s.ringsSky) + int(s.ringsLimb) + int(s.ringsGround)) * fine;
+ALPENGLOW_FN int zenithCount(IN(MomentShape) s, int fine) {
+  return (int(s.zenithsSky) + int(s.zenithsLimb) + int(s.zenithsGround)) * fine;
 }
 
-// Texel (ring, row) of the table of rules: row 0 with the rings, row 1 with those of order 1.
-ALPENGLOW_FN Real2 ringRule(IN(MomentShape) s, int ring, int row) {
-  int fine = row == 0 ? 1 : kFineRings;
-  int sky = int(s.ringsSky) * fine;
-  int limb = int(s.ringsLimb) * fine;
-  int ground = int(s.ringsGround) * fine;
-  if (ring < sky) return gaussLegendre(ring, sky);
-  if (ring < sky + limb) return gaussLegendre(ring - sky, limb);
-  return gaussLegendre(min(ring - sky - limb, ground - 1), ground);
+// Texel (zenith, row) of the table of rules: row 0 with the zenith angles, row 1 with those of order 1.
+ALPENGLOW_FN Real2 zenithRule(IN(MomentShape) s, int zenith, int row) {
+  int fine = row == 0 ? 1 : kFineZeniths;
+  int sky = int(s.zenithsSky) * fine;
+  int limb = int(s.zenithsLimb) * fine;
+  int ground = int(s.zenithsGround) * fine;
+  if (zenith < sky) return gaussLegendre(zenith, sky);
+  if (zenith < sky + limb) return gaussLegendre(zenith - sky, limb);
+  return gaussLegendre(min(zenith - sky - limb, ground - 1), ground);
 }
 
 // A cone of directions of incoming light.
-struct Ring {
+struct ZenithAngle {
   Real mu;
   Real weight;  // of its mu
   bool hitsGround;
@@ -83,14 +83,14 @@ struct Ring {
 
 // Three bands, each dense towards the horizon or the horizontal, where the light changes most: the sky
 // above the horizontal (whose light is irradiance), down to the horizon, and the ground.
-ALPENGLOW_FN Ring makeRing(IN(Medium) m, IN(MomentShape) s, Real h, int ring, int fine, Real2 rule) {
-  Ring result;
-  int sky = int(s.ringsSky) * fine;
-  int limb = int(s.ringsLimb) * fine;
+ALPENGLOW_FN ZenithAngle makeZenithAngle(IN(Medium) m, IN(MomentShape) s, Real h, int zenith, int fine, Real2 rule) {
+  ZenithAngle result;
+  int sky = int(s.zenithsSky) * fine;
+  int limb = int(s.zenithsLimb) * fine;
   Real horizon = horizonMu(m, h);
   Real y2 = rule[0] * rule[0];
-  result.rises = ring < sky;
-  result.hitsGround = ring >= sky + limb;
+  result.rises = zenith < sky;
+  result.hitsGround = zenith >= sky + limb;
   result.mu = result.rises        ? y2
               : result.hitsGround ? horizon - (REAL(1.0) + horizon) * y2
                                   : horizon * (REAL(1.0) - y2);
@@ -99,18 +99,18 @@ ALPENGLOW_FN Ring makeRing(IN(Medium) m, IN(MomentShape) s, Real h, int ring, in
   return result;
 }
 
-// --- Pass L: light that arrives at a node along the rays of a ring. x = azimuth + azimuths * ring.
+// --- Pass L: light that arrives at a node along the rays of a zenith angle. x = azimuth + azimuths * ring.
 
-ALPENGLOW_FN Ray nodeRay(IN(Medium) m, IN(NodePoint) p, IN(Ring) ring, Real azimuth) {
+ALPENGLOW_FN Ray nodeRay(IN(Medium) m, IN(NodePoint) p, IN(ZenithAngle) zenith, Real azimuth) {
   Ray ray;
   ray.start = REAL(0.0);
   ray.h = p.h;
-  ray.mu = ring.mu;
+  ray.mu = zenith.mu;
   ray.muS = p.muS;
-  Real spread = sqrt(max((REAL(1.0) - ring.mu * ring.mu) * (REAL(1.0) - p.muS * p.muS), REAL(0.0)));
-  ray.nu = clamp(ring.mu * p.muS + spread * cos(azimuth), REAL(-1.0), REAL(1.0));
-  ray.hitsGround = ring.hitsGround;
-  ray.extent = ring.hitsGround ? distanceToGround(m, p.h, ring.mu) : distanceToTop(m, p.h, ring.mu);
+  Real spread = sqrt(max((REAL(1.0) - zenith.mu * zenith.mu) * (REAL(1.0) - p.muS * p.muS), REAL(0.0)));
+  ray.nu = clamp(zenith.mu * p.muS + spread * cos(azimuth), REAL(-1.0), REAL(1.0));
+  ray.hitsGround = zenith.hitsGround;
+  ray.extent = zenith.hitsGround ? distanceToGround(m, p.h, zenith.mu) : distanceToTop(m, p.h, zenith.mu);
   ray.inAtmosphere = true;
   return ray;
 }
@@ -119,8 +119,8 @@ ALPENGLOW_FN Ray rayOfTexel(IN(Medium) m, IN(MomentShape) s, int x, int node, in
   NodePoint p = nodePoint(m, s, node);
   int azimuths = int(s.azimuths);
   int index = x / azimuths;
-  Ring ring = makeRing(m, s, p.h, index, fine, fetchRule(index, fine == 1 ? 0 : 1));
-  return nodeRay(m, p, ring, (Real(x - index * azimuths) + REAL(0.5)) * REAL(ALPENGLOW_PI) /
+  ZenithAngle zenith = makeZenithAngle(m, s, p.h, index, fine, fetchRule(index, fine == 1 ? 0 : 1));
+  return nodeRay(m, p, zenith, (Real(x - index * azimuths) + REAL(0.5)) * REAL(ALPENGLOW_PI) /
                                  s.azimuths);
 }
 
@@ -129,11 +129,11 @@ ALPENGLOW_FN Real muSAtGround(IN(Medium) m, IN(Ray) ray) {
   return muSAt(m, ray.h, ray.muS, ray.nu, ray.extent, REAL(0.0));
 }
 
-// Order 1: S[L0] without phase functions, and R[L0] through the air.
+// Order 1: S[L0] without phase functions, and R[L0] through the atmosphere.
 ALPENGLOW_FN void singleLight(IN(Medium) m, IN(MomentShape) s, int x, int node,
                               OUT(Spectrum) rayleigh, OUT(Spectrum) mie, OUT(Spectrum) ground) {
-  Ray ray = rayOfTexel(m, s, x, node, kFineRings);
-  PathLight light = lightOfPath(m, s, ray, ray.extent, int(s.solverPanels), true, false);
+  Ray ray = rayOfTexel(m, s, x, node, kFineZeniths);
+  PathLight light = integrateInscattering(m, s, ray, ray.extent, int(s.solverPanels), true, false);
   rayleigh = light.rayleigh;
   mie = light.mie;
   Real muS = muSAtGround(m, ray);
@@ -150,7 +150,7 @@ ALPENGLOW_FN Spectrum multipleLight(IN(Medium) m, IN(MomentShape) s, int x, int 
   Ray ray = rayOfTexel(m, s, x, node, 1);
   // Its sources are smoother than sunlight: a panel less costs no accuracy that the others leave.
   int panels = int(s.solverPanels) - (s.solverPanels > REAL(3.5) ? 1 : 0);
-  PathLight light = lightOfPath(m, s, ray, ray.extent, panels, false, true);
+  PathLight light = integrateInscattering(m, s, ray, ray.extent, panels, false, true);
   Spectrum sum = light.multiple;
   if (ALPENGLOW_GROUND_REFLECTION) {
     Spectrum up = m.groundAlbedo / REAL(ALPENGLOW_PI) * exp(-light.depth) *
@@ -160,8 +160,8 @@ ALPENGLOW_FN Spectrum multipleLight(IN(Medium) m, IN(MomentShape) s, int x, int 
   return sum;
 }
 
-// --- Pass F: the integral of L cos(m phi) over a ring, eight modes at once, since their sums share the
-// phase functions. x = group + modeGroups * ring; the modes are 8 group ... 8 group + 7.
+// --- Pass F: the integral of L cos(m phi) over a zenith angle, eight modes at once, since their sums share the
+// phase functions. x = group + modeGroups * zenith; the modes are 8 group ... 8 group + 7.
 
 ALPENGLOW_FN int modeGroups(IN(MomentShape) s) { return (int(s.degree) + 8) / 8; }
 
@@ -238,7 +238,7 @@ ALPENGLOW_FN EightModes multipleModes(IN(MomentShape) s, int first, int node, Re
   return sum;
 }
 
-ALPENGLOW_FN EightModes modesOfRing(IN(Medium) m, IN(MomentShape) s, int x, int node,
+ALPENGLOW_FN EightModes modesOfZenith(IN(Medium) m, IN(MomentShape) s, int x, int node,
                                     bool firstOrder) {
   int index = x / modeGroups(s);
   Real mode = REAL(8.0) * Real(x - index * modeGroups(s));
@@ -247,9 +247,9 @@ ALPENGLOW_FN EightModes modesOfRing(IN(Medium) m, IN(MomentShape) s, int x, int 
   sum.a = sum.b = sum.c = sum.d = sum.e = sum.f = sum.g = sum.h = SPECTRUM(REAL(0.0));
   if (firstOrder) {
     NodePoint p = nodePoint(m, s, node);
-    Ring ring = makeRing(m, s, p.h, index, kFineRings, fetchRule(index, 1));
-    Real sines = sqrt(max((REAL(1.0) - ring.mu * ring.mu) * (REAL(1.0) - p.muS * p.muS), REAL(0.0)));
-    sum = singleModes(m, s, first, node, mode, ring.mu * p.muS, sines, sum);
+    ZenithAngle zenith = makeZenithAngle(m, s, p.h, index, kFineZeniths, fetchRule(index, 1));
+    Real sines = sqrt(max((REAL(1.0) - zenith.mu * zenith.mu) * (REAL(1.0) - p.muS * p.muS), REAL(0.0)));
+    sum = singleModes(m, s, first, node, mode, zenith.mu * p.muS, sines, sum);
   } else {
     sum = multipleModes(s, first, node, mode, sum);
   }
@@ -258,30 +258,30 @@ ALPENGLOW_FN EightModes modesOfRing(IN(Medium) m, IN(MomentShape) s, int x, int 
 
 // --- Pass Y: Legendre functions. x = l (l + 1) / 2 + m.
 
-// Rows of the table of Legendre functions: the rings of each altitude, those of order 1, and the
+// Rows of the table of Legendre functions: the zenith angles of each altitude, those of order 1, and the
 // angles of the sources. The functions are stored times what every sum over them has: the ring's
 // weight, or the aerosols' coefficient.
-ALPENGLOW_FN int legendreRow(IN(MomentShape) s, int r, int ring, int fine) {
-  int coarse = ringCount(s, 1) * int(s.nodesR);
-  return fine == 1 ? r * ringCount(s, 1) + ring : coarse + r * ringCount(s, kFineRings) + ring;
+ALPENGLOW_FN int legendreRow(IN(MomentShape) s, int r, int zenith, int fine) {
+  int coarse = zenithCount(s, 1) * int(s.nodesR);
+  return fine == 1 ? r * zenithCount(s, 1) + zenith : coarse + r * zenithCount(s, kFineZeniths) + zenith;
 }
 
 ALPENGLOW_FN int legendreRowOfSource(IN(MomentShape) s, int gamma) {
-  return ringCount(s, 1 + kFineRings) * int(s.nodesR) + gamma;
+  return zenithCount(s, 1 + kFineZeniths) * int(s.nodesR) + gamma;
 }
 
 ALPENGLOW_FN Real nuOfSource(IN(MomentShape) s, int gamma) {
-  return sourceNu(s, unitFromTexel(Real(gamma), s.sourceGamma));
+  return sourceNu(s, texelToU(Real(gamma), s.sourceGamma));
 }
 
 ALPENGLOW_FN Real legendreOfTexel(IN(Medium) m, IN(MomentShape) s, int x, int y) {
-  int coarse = ringCount(s, 1);
-  int fine = ringCount(s, kFineRings);
+  int coarse = zenithCount(s, 1);
+  int fine = zenithCount(s, kFineZeniths);
   int fineRow = y - coarse * int(s.nodesR);
   int sourceRow = y - legendreRowOfSource(s, 0);
   bool isFine = fineRow >= 0;
   int r = isFine ? fineRow / fine : y / coarse;
-  int ring = isFine ? fineRow - r * fine : y - r * coarse;
+  int zenith = isFine ? fineRow - r * fine : y - r * coarse;
   int l = degreeOf(x);
   int mode = x - l * (l + 1) / 2;
   Real factor = mode == 0 ? REAL(1.0) : REAL(1.41421356237309505);
@@ -291,8 +291,8 @@ ALPENGLOW_FN Real legendreOfTexel(IN(Medium) m, IN(MomentShape) s, int x, int y)
     Real share = Real(l) / (s.degree + REAL(1.0));
     factor *= mieCoefficient(m.mieAsymmetry, l) * exp(-s.taper * share * share * share * share);
   } else {
-    Real h = nodeH(m, s, unitFromTexel(Real(r), s.nodesR));
-    Ring cone = makeRing(m, s, h, ring, isFine ? kFineRings : 1, fetchRule(ring, isFine ? 1 : 0));
+    Real h = nodeH(m, s, texelToU(Real(r), s.nodesR));
+    ZenithAngle cone = makeZenithAngle(m, s, h, zenith, isFine ? kFineZeniths : 1, fetchRule(zenith, isFine ? 1 : 0));
     mu = cone.mu;
     factor *= cone.weight;
   }
@@ -302,14 +302,14 @@ ALPENGLOW_FN Real legendreOfTexel(IN(Medium) m, IN(MomentShape) s, int x, int y)
 // --- Pass M: the coefficient of L for harmonic x = l (l + 1) / 2 + m.
 
 ALPENGLOW_FN Spectrum momentOfNode(IN(MomentShape) s, int x, int node, bool firstOrder) {
-  int fine = firstOrder ? kFineRings : 1;
+  int fine = firstOrder ? kFineZeniths : 1;
   int l = degreeOf(x);
   int mode = x - l * (l + 1) / 2;
   int modes = int(s.degree) + 1;
-  int rings = ringCount(s, fine);
+  int zeniths = zenithCount(s, fine);
   int row = legendreRow(s, node / int(s.nodesMuS), 0, fine);
   Spectrum sum = SPECTRUM(REAL(0.0));
-  for (int i = 0; i < rings; ++i)
+  for (int i = 0; i < zeniths; ++i)
     sum += fetchModes(mode + modes * i, node) * fetchLegendre(x, row + i);
   return sum;
 }
@@ -321,7 +321,7 @@ ALPENGLOW_FN Real rotationOfTexel(IN(MomentShape) s, int x, int y) {
   int node = y / degrees;
   int l = y - node * degrees;
   int to = min(x / (l + 1), l);
-  Real muS = nodeMuS(s, unitFromTexel(Real(node), s.nodesMuS));
+  Real muS = nodeMuS(s, texelToU(Real(node), s.nodesMuS));
   return rotation(l, to, min(x - to * (l + 1), l), muS);
 }
 
@@ -358,7 +358,7 @@ ALPENGLOW_FN Spectrum sourceOfTexel(IN(MomentShape) s, int x, int node) {
   int index = x / gammas;
   int modes = int(s.degree) + 1;
   int gamma = x - index * gammas;
-  Real psi = REAL(ALPENGLOW_PI) * unitFromTexel(Real(index), s.sourcePsi);
+  Real psi = REAL(ALPENGLOW_PI) * texelToU(Real(index), s.sourcePsi);
   // cos((m + 1) psi) = 2 cos(psi) cos(m psi) - cos((m - 1) psi).
   Real twice = REAL(2.0) * cos(psi);
   Real before = cos(psi);
@@ -387,7 +387,7 @@ struct NodeField {
 };
 
 ALPENGLOW_FN NodeField fieldOfNode(IN(Medium) m, IN(MomentShape) s, int node, bool firstOrder) {
-  int fine = firstOrder ? kFineRings : 1;
+  int fine = firstOrder ? kFineZeniths : 1;
   NodeField field;
   const Real kSphere = REAL(1.0) / (REAL(4.0) * REAL(ALPENGLOW_PI));
   // From the harmonics of degree 0 and 2; x^2 - y^2 and x z are Y_22 and Y_21 but for a factor.
@@ -399,18 +399,18 @@ ALPENGLOW_FN NodeField fieldOfNode(IN(Medium) m, IN(MomentShape) s, int node, bo
   field.xz = fetchMoments(4, node) * (REAL(0.9152913146143) * kSphere);
   field.irradiance = SPECTRUM(REAL(0.0));
   int modes = int(s.degree) + 1;
-  int sky = int(s.ringsSky) * fine;
+  int sky = int(s.zenithsSky) * fine;
   NodePoint p = nodePoint(m, s, node);
   for (int i = 0; i < (ALPENGLOW_GROUND_REFLECTION || ALPENGLOW_GROUND_IRRADIANCE ? sky : 0); ++i) {
-    Ring ring = makeRing(m, s, p.h, i, fine, fetchRule(i, firstOrder ? 1 : 0));
-    field.irradiance += fetchModes(modes * i, node) * (ring.weight * ring.mu);
+    ZenithAngle zenith = makeZenithAngle(m, s, p.h, i, fine, fetchRule(i, firstOrder ? 1 : 0));
+    field.irradiance += fetchModes(modes * i, node) * (zenith.weight * zenith.mu);
   }
   return field;
 }
 
 // Layers of the table of moments as stored.
 ALPENGLOW_FN Spectrum encodeLayer(IN(NodeField) field, int layer) {
-  Spectrum dark = SPECTRUM(darkness());
+  Spectrum dark = SPECTRUM(kMinRadiance);
   Spectrum mean = max(field.mean, dark);
   // Where there is no light, light from everywhere alike: 1/3, 1/3, 0.
   Spectrum third = SPECTRUM(REAL(1.0) / REAL(3.0)) * (mean - max(field.mean, SPECTRUM(REAL(0.0))));
@@ -426,6 +426,6 @@ ALPENGLOW_FN Spectrum encodeLayer(IN(NodeField) field, int layer) {
 // Sum of the geometric series that follows the last order, over that order: q / (1 - q), q the ratio of
 // the last two.
 ALPENGLOW_FN Spectrum tailFactor(IN(MomentShape) s, Spectrum last, Spectrum before) {
-  Spectrum q = clamp(last / max(before, SPECTRUM(darkness())), REAL(0.0), REAL(0.95));
+  Spectrum q = clamp(last / max(before, SPECTRUM(kMinRadiance)), REAL(0.0), REAL(0.95));
   return q / (SPECTRUM(REAL(1.0)) - q) * s.tail;
 }

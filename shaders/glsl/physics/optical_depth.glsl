@@ -89,7 +89,7 @@ ALPENGLOW_FN Spectrum tentDepthOfSide(IN(Medium) m, Real h, Real mu, Real lowest
 }
 
 // Optical depth of everything on one side of a ray's lowest point, as above. Split where the ray has
-// gained 3 and 12 of the smaller scale height and 12 of the larger, so that the nodes are where the air
+// gained 3 and 12 of the smaller scale height and 12 of the larger, so that the nodes are where the atmosphere
 // is, however high the shell; and at the tent's bends.
 ALPENGLOW_FN Spectrum opticalDepthOfSide(IN(Medium) m, Real h, Real mu, Real lowest, Real direction,
                                          Real reach) {

@@ -1,5 +1,5 @@
 // All of the physics that reads no table, in the order it needs. Include this, or in C++
-// atmosphere/model/physics_cpp.h.
+// atmosphere/parameters/physics_cpp.h.
 #ifndef ALPENGLOW_PHYSICS
 #ifndef __cplusplus
 #define ALPENGLOW_PHYSICS
@@ -21,10 +21,10 @@
 
 #include "field.glsl"
 
-#include "path.glsl"
+#include "ray_segment.glsl"
 
-#include "slice.glsl"
+#include "sky_view_lut.glsl"
 
-#include "air_volume.glsl"
+#include "aerial_perspective_lut.glsl"
 
 #endif

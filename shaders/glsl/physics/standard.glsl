@@ -17,7 +17,7 @@ const int kHemisphereTheta = 16;  // over the upper half; four times as many azi
 // table stays: what is read at the horizon lies between texels on both sides of it, and must not see a
 // step (with the horizon's value below, the sky's lowest 0.1 degrees were 40 % too bright).
 ALPENGLOW_FN Spectrum tabulatedOpticalDepth(IN(Medium) m, IN(TableShape) shape, Real h, Real mu) {
-  Real uHorizon = transmittanceUnit(m, h, horizonMu(m, h))[0];
+  Real uHorizon = transmittanceUv(m, h, horizonMu(m, h))[0];
   Real uLeast = max(uHorizon - REAL(2.0) / (shape.transmittanceMu - REAL(1.0)), REAL(0.0));
   Real2 least = transmittanceHMu(m, Real2(uLeast, REAL(0.0)));
   return opticalDepthThroughGround(m, h, max(mu, least[1]), kTransmittanceTrapezoids);
@@ -119,7 +119,7 @@ ALPENGLOW_FN Real sphereTheta(int i) {
 // y = mu_s + muSs * r (texels), and J reads that: the same sums, in a third of the time.
 ALPENGLOW_FN Real2 incidentCoordinate(IN(TableShape) shape, Real muSTexel, Real rTexel, int i,
                                       Real nu) {
-  Real x = Real(i) + insetCoordinate(scatteringUnitNu(nu), shape.scatteringNu);
+  Real x = Real(i) + insetCoordinate(scatteringUnu(nu), shape.scatteringNu);
   Real y = muSTexel + shape.scatteringMuS * rTexel + REAL(0.5);
   return Real2(x / Real(kSphereTheta), y / (shape.scatteringMuS * shape.scatteringR));
 }
@@ -148,9 +148,9 @@ struct DensityPoint {
   Spectrum betaM;
 };
 
-// The ring of zenith angle i: light that arrives from its azimuths and is scattered towards the view.
-// `withGround` is a literal: rings above the horizon have no code for the ground.
-ALPENGLOW_FN Spectrum densityRing(IN(Medium) m, IN(TableShape) shape, IN(DensityPoint) p, int i,
+// Zenith angle i: light that arrives from its azimuths and is scattered towards the view.
+// `withGround` is a literal: zenith angles above the horizon have no code for the ground.
+ALPENGLOW_FN Spectrum densityOfZenith(IN(Medium) m, IN(TableShape) shape, IN(DensityPoint) p, int i,
                                   bool withGround) {
   Real step = REAL(ALPENGLOW_PI) / Real(kSphereTheta);
   Real cosTheta = cos(sphereTheta(i));
@@ -201,13 +201,13 @@ ALPENGLOW_FN Spectrum scatteringDensity(IN(Medium) m, IN(TableShape) shape, Real
   p.sun = sunInViewFrame(mu, muS, nu);
   p.betaR = m.rayleighScattering * rayleighDensity(m, h);
   p.betaM = m.mieScattering * mieDensity(m, h);
-  int skyRings = 0;
+  int skyZeniths = 0;
   for (int i = 0; i < kSphereTheta; ++i) {
-    skyRings += rayHitsGround(m, h, cos(sphereTheta(i))) ? 0 : 1;
+    skyZeniths += rayHitsGround(m, h, cos(sphereTheta(i))) ? 0 : 1;
   }
   Spectrum sum = SPECTRUM(REAL(0.0));
-  for (int i = 0; i < skyRings; ++i) sum += densityRing(m, shape, p, i, false);
-  for (int i = skyRings; i < kSphereTheta; ++i) sum += densityRing(m, shape, p, i, true);
+  for (int i = 0; i < skyZeniths; ++i) sum += densityOfZenith(m, shape, p, i, false);
+  for (int i = skyZeniths; i < kSphereTheta; ++i) sum += densityOfZenith(m, shape, p, i, true);
   return sum * m.thickness;
 }
 

@@ -1,5 +1,5 @@
 // The types of the physics text, which compiles as GLSL and, through GLM, as C++ in float and in
-// double (atmosphere/model/physics_cpp.h defines the same names there). Rules of this folder: no
+// double (atmosphere/parameters/physics_cpp.h defines the same names there). Rules of this folder: no
 // swizzles, samplers, globals or array initialisers; literals are REAL(2.0); a table read is a
 // function that the includer defines (see lookup.glsl). Lengths are metres, angles radians.
 #ifndef __cplusplus

@@ -2,7 +2,7 @@
 #include <alpenglow/alpenglow.h>
 #include <alpenglow/headless.h>
 #include <alpenglow/io/atmosphere_file.h>
-#include <alpenglow/reference.h>
+#include <alpenglow/reference/reference.h>
 
 #include <cstdio>
 #include <string>

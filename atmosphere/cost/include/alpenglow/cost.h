@@ -22,7 +22,7 @@ struct Timing {
   uint32_t runs = 0;  ///< 0: not measured.
 };
 
-/// Bands of the sun's elevation, as docs/reference.md has them.
+/// Bands of the sun's elevation, as docs/reference-solution.md has them.
 inline constexpr uint32_t kBandCount = 5;
 inline constexpr const char* kBandNames[kBandCount] = {"day", "low", "civil", "nautical",
                                                        "astronomical"};
@@ -48,7 +48,7 @@ struct Row {
   std::string note;    ///< Why something was not measured, or how it was; may be empty.
   Timing bake_s;       ///< User CPU on software devices, else by timestamps.
   std::array<Timing, kViewCount> frame_ms;
-  uint64_t bytes = 0;      ///< That stay: tables, slices.
+  uint64_t bytes = 0;      ///< That stay: tables, LUTs.
   uint64_t peakBytes = 0;  ///< While baking.
   std::array<BandError, kBandCount> errors;
 

@@ -9,7 +9,7 @@
 
 namespace alpenglow::io {
 
-/// Parses and validates. `name` is how sentences call the text.
+/// Parses and validates. `name` is how messages name the source.
 Result<Parameters> parseAtmosphere(const std::string& text, const std::string& name);
 Result<Parameters> readAtmosphere(const std::string& path);
 

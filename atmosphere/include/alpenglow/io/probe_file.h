@@ -3,7 +3,7 @@
 
 #include <alpenglow/io/result.h>
 #include <alpenglow/query.h>
-#include <alpenglow/reference.h>
+#include <alpenglow/reference/reference.h>
 
 #include <string>
 #include <vector>
@@ -19,8 +19,9 @@ struct NamedQuery {
 Result<std::vector<NamedQuery>> readQueries(const std::string& path);
 Result<std::vector<NamedQuery>> parseQueries(const std::string& text, const std::string& name);
 
-/// The text of an answers file, in the order of the queries, numbers with all their digits. Fails
-/// when a value is not finite, naming the query's id and the field. `answers` has one for each.
+/// The content of an answers file, in the order of the queries, numbers with all their digits.
+/// Fails when a value is not finite, naming the query's id and the field. `answers` has one for
+/// each.
 Result<std::string> formatAnswers(const std::vector<NamedQuery>& queries,
                                   const std::vector<ProbeAnswer>& answers);
 /// With `standard_error`.
@@ -30,7 +31,7 @@ Result<std::string> formatAnswers(const std::vector<NamedQuery>& queries,
 /// Answers as a file holds them: `standardError` is zero where the file has none.
 Result<std::vector<ReferenceAnswer>> readAnswers(const std::string& path,
                                                  const std::vector<NamedQuery>& queries);
-/// Fails unless the text has one answer of the right kind for each query, in the same order.
+/// Fails unless the file has one answer of the right kind for each query, in the same order.
 Result<std::vector<ReferenceAnswer>> parseAnswers(const std::string& text, const std::string& name,
                                                   const std::vector<NamedQuery>& queries);
 

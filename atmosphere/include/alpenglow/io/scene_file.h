@@ -67,15 +67,15 @@ struct SceneStars {
 };
 
 /// How light shafts are drawn.
-enum class SceneShafts : uint32_t {
-  Auto,   ///< The program's choice; none where there is no terrain.
-  Paper,  ///< Shadow volumes, with the single length of shadow a ray of the 2008 paper.
-  Exact,  ///< The sum over all lit segments of a ray.
-  March,  ///< Samples along the ray in a shadow map.
+enum class SceneLightShafts : uint32_t {
+  Auto,          ///< The program's choice; none where there is no terrain.
+  ShadowVolume,  ///< Shadow volumes, with the single length of shadow a ray of the 2008 paper.
+  LightVolume,   ///< The sum over all lit segments of a ray.
+  RayMarch,      ///< Samples along the ray in a shadow map.
   Off,
 };
 
-/// What answers for the air of a scene: docs/models.md.
+/// What answers for the atmosphere of a scene: docs/baselines.md.
 enum class SceneModel : uint32_t {
   Bruneton,  ///< All orders, by the scene's solver.
   Single,    ///< The same of one event.
@@ -86,7 +86,7 @@ enum class SceneModel : uint32_t {
 };
 
 /// What a scene may ask for while it is shown: alpenglow/plan.h. Without it a scene is a still.
-struct SceneNeeds {
+struct SceneRequirements {
   std::optional<double> altitude_m[2];    ///< Of the camera, from and to. None: its own.
   std::optional<double> sunElevation[2];  ///< Radians. None: its own.
   std::optional<double> exposure;         ///< The greatest. None: any.
@@ -102,26 +102,26 @@ struct Scene {
   std::string albedoMap;  ///< A path that can be opened from here; empty: the uniform albedo.
   std::optional<SceneTerrain> terrain;
   std::vector<SceneBalloon> balloons;
-  std::optional<SceneStars> stars;         ///< None: a sky without.
-  SceneShafts shafts = SceneShafts::Auto;  ///< Off, too, where effects.light_shafts is.
-  uint32_t shaftSamples = 32;              ///< Along a ray, of SceneShafts::March.
+  std::optional<SceneStars> stars;                   ///< None: a sky without.
+  SceneLightShafts shafts = SceneLightShafts::Auto;  ///< Off, too, where effects.light_shafts is.
+  uint32_t lightShaftStepCount = 32;  ///< Along a ray, of SceneLightShafts::RayMarch.
   uint32_t width = 1024;
   uint32_t height = 768;
   std::optional<double> exposure;  ///< A factor; none: automatic.
   ToneMap toneMap = ToneMap::Filmic;
   SceneModel model = SceneModel::Bruneton;
-  std::optional<uint32_t> modelSamples;  ///< TableDesc::samples; None: the model's default.
-  std::optional<Solver> solver;          ///< None: the default.
-  std::optional<uint32_t> orders;        ///< None: the solver's default; 1 with SceneModel::Single.
-  std::optional<Quality> quality;        ///< Of Solver::Moments; none: the default.
-  Force effects[kEffectCount] = {};      ///< By Effect.
-  std::optional<SceneNeeds> needs;
+  std::optional<uint32_t> modelStepCount;  ///< TableDesc::stepCount; None: the model's default.
+  std::optional<Solver> solver;            ///< None: the default.
+  std::optional<uint32_t> orders;    ///< None: the solver's default; 1 with SceneModel::Single.
+  std::optional<Quality> quality;    ///< Of Solver::Moments; none: the default.
+  Force effects[kEffectCount] = {};  ///< By Effect.
+  std::optional<SceneRequirements> requirements;
 };
 
 /// Most pixels along a side of a picture.
 inline constexpr uint32_t kMaxPictureSide = 16384;
 /// Most samples along a ray for light shafts.
-inline constexpr uint32_t kMaxShaftSamples = 4096;
+inline constexpr uint32_t kMaxLightShaftSteps = 4096;
 /// Most balloons of a scene.
 inline constexpr uint32_t kMaxBalloons = 1000;
 
@@ -137,10 +137,10 @@ Result<Scene> readScene(const std::string& path);
 Result<Scene> parseScene(const std::string& text, const std::string& name,
                          const std::string& folder);
 
-/// The text of a scene file, for a scene that a file could hold. A preset's parameters are its
+/// The content of a scene file, for a scene that a file could hold. A preset's parameters are its
 /// name. Sun, camera, terrain and balloons have all their fields; others are left out at their
-/// defaults. Paths are made absolute and lexically normal ("a/../b" is "b"), since the text may be
-/// put anywhere; bytes that are no UTF-8 become U+FFFD in them.
+/// defaults. Paths are made absolute and lexically normal ("a/../b" is "b"), since the content may
+/// be put anywhere; bytes that are no UTF-8 become U+FFFD in them.
 ///
 /// Read back it is the same scene with those paths: all numbers bit for bit, and the angles of
 /// scenes that were read. Of other angles about one in eleven is what no number of degrees gives;
@@ -151,7 +151,7 @@ std::string formatScene(const Scene& scene);
 Done writeScene(const std::string& path, const Scene& scene);
 
 /// What an ATMOSPHERE on the command line gave: a preset's name, an atmosphere file, or a scene
-/// file whose atmosphere is meant. The last two are told apart by content.
+/// file whose atmosphere is meant. The last two are distinguished by content.
 struct AtmosphereSource {
   Parameters parameters;
   std::optional<Scene> scene;  ///< Present when it was a scene file.

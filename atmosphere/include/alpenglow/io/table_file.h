@@ -64,7 +64,7 @@ std::vector<TablePart> expectedParts(const TableDesc& desc);
 std::string transmittanceSizeText(const TableSizes& sizes);
 std::string irradianceSizeText(const TableSizes& sizes);
 std::string scatteringSizeText(const TableSizes& sizes);
-/// False, with `sizes` unchanged, when the text is not whole numbers from 1 to 4096 and "x".
+/// False, with `sizes` unchanged, when the string is not whole numbers from 1 to 4096 and "x".
 bool parseTransmittanceSize(const std::string& text, TableSizes* sizes);
 bool parseIrradianceSize(const std::string& text, TableSizes* sizes);
 bool parseScatteringSize(const std::string& text, TableSizes* sizes);
@@ -80,9 +80,9 @@ std::string qualityName(Quality quality);
 std::optional<Quality> findQuality(const std::string& name);
 
 /// Sizes of Solver::Moments as the command line and files spell them: "nodesR=16,degree=12", those
-/// that are not 0. Zenith angles are called ringsSky, ringsLimb and ringsGround there.
+/// that are not 0. Zenith angles are called zenithsSky, zenithsLimb and zenithsGround there.
 std::string momentSettingsText(const TableSizes& settings);
-/// Takes the fields that the text names, and leaves the others; each may stand there once, from 2
+/// Takes the fields that the string names, and leaves the others; each may stand there once, from 2
 /// to kMaxTableSide (degree: to 47). Otherwise a sentence, with `settings` unchanged.
 Done parseMomentSettings(const std::string& text, TableSizes* settings);
 

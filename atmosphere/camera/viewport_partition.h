@@ -1,0 +1,68 @@
+// The viewport of a frame, cut into parts by what their pixels may see, so that each is drawn by
+// the cheapest pipeline: a pixel of sky pays for no ground, and one of empty space for no air.
+#pragma once
+
+#include "atmosphere/camera/picture.h"
+
+#include <array>
+#include <iterator>
+
+#include "atmosphere/camera/camera_math.h"
+
+namespace alpenglow::passes {
+
+struct Visible {
+  bool air = true;
+  bool ground = true;  ///< Never without air.
+  bool disc = true;
+  bool operator==(const Visible&) const = default;
+};
+
+/// All that occur, and a number for each.
+inline constexpr Visible kCombinations[] = {{false, false, false}, {true, false, false},
+                                            {true, true, false},   {false, false, true},
+                                            {true, false, true},   {true, true, true}};
+inline constexpr uint32_t kVariants = std::size(kCombinations);
+constexpr uint32_t variant(const Visible& v) {
+  return (v.air ? v.ground ? 2u : 1u : 0u) + (v.disc ? 3u : 0u);
+}
+
+/// Whether a view without these effects draws such pixels.
+constexpr bool drawn(EffectFlags disabledEffects, const Visible& v) {
+  return (v.air || hasEffect(disabledEffects, Effect::SpaceViews)) &&
+         (!v.ground || hasEffect(disabledEffects, Effect::Ground)) &&
+         (!v.disc || hasEffect(disabledEffects, Effect::SunDisc));
+}
+
+/// Of a viewport's pixels, counted from its corner. Conservative, from the cones around them, the
+/// planet, the atmosphere and the sun.
+Visible visible(const Parameters& parameters, const PictureDesc& desc, const FrameState& draw,
+                const VkRect2D& area);
+
+struct Part {
+  VkRect2D area;  ///< Counted from the viewport's corner.
+  Visible visible;
+};
+
+/// Parts that together are the viewport, and do not overlap; one for an orthographic camera, which
+/// may see anything but the sun's disc.
+struct ViewportPartition {
+  static constexpr uint32_t kSide = 8;  ///< Most columns and rows.
+  std::array<Part, kSide * kSide> parts;
+  uint32_t count = 0;
+};
+ViewportPartition cut(const Parameters& parameters, const PictureDesc& desc,
+                      const FrameState& draw);
+
+/// To the right of where a camera looks.
+std::array<double, 3> cameraRight(const EyeCamera& camera);
+
+/// Width and height, and the lesser of them, in pixels.
+struct ViewportSize {
+  double width, height, least;
+};
+ViewportSize viewportSize(const FrameState& draw);
+/// Of a pixel at the centre of the view, radians; orthographic: metres.
+double pixelAngle(const PictureDesc& desc, const FrameState& draw);
+
+}  // namespace alpenglow::passes

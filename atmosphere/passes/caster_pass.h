@@ -1,0 +1,28 @@
+// Passes in which a host draws its casters, and what placeCaster needs to know of them.
+#pragma once
+
+#include "atmosphere/passes/light_shaft_frame.h"
+#include "engine/device.h"
+
+namespace alpenglow::passes {
+
+/// What CasterPass::internal points to.
+struct CasterTarget {
+  engine::Device* device = nullptr;
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  const ShadowMapPlace* map = nullptr;  ///< Else metres from the eye.
+  const double* eye = nullptr;
+  const World* world = nullptr;
+};
+
+/// Push constants of place.glsl.
+inline constexpr VkPushConstantRange kPlaceRange = {VK_SHADER_STAGE_VERTEX_BIT, 0, 48};
+
+/// Sets viewport and scissor, binds, places casters at the world's origin until the host says
+/// otherwise, and calls it. `clipFromOrigin`: column-major, from metres off `origin_m`, both in the
+/// planet frame.
+void drawCasters(VkCommandBuffer commands, const CasterTarget& target, LightShaftMethod method,
+                 const double origin_m[3], const double clipFromOrigin[16], VkPipeline pipeline,
+                 const VkRect2D& area, const CasterSet& casters);
+
+}  // namespace alpenglow::passes

@@ -1,0 +1,21 @@
+// Frames that are legal and most likely meant otherwise: a view reports each kind once.
+#pragma once
+
+#include "atmosphere/camera/picture.h"
+#include "engine/device.h"
+
+namespace alpenglow::view {
+
+class Warnings {
+ public:
+  /// Of a frame that has been checked.
+  void check(const engine::Device& device, const Parameters& parameters, const FrameState& state,
+             VkFormat colorFormat);
+
+ private:
+  bool once(bool* reported, bool seen);
+
+  bool deepCamera_ = false, darkSun_ = false, overflow_ = false;
+};
+
+}  // namespace alpenglow::view

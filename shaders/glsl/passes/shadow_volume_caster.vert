@@ -1,0 +1,9 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Casters about the camera, for the geometry shader.
+
+#include "passes/caster_placement.glsl"
+
+layout(location = 0) out vec3 position;
+
+void main() { position = placed(); }
