@@ -1,6 +1,6 @@
-// A host in one file: makes its own Vulkan device, bakes the tables in slices into its own command
-// buffers, draws the sky into its own image and writes that: embed_minimal OUT.ppm [--small]
-// With --small the tables are small and hold two orders of scattering.
+// A host in one file: makes its own Vulkan device, bakes the tables in slices, draws the sky from
+// its LUT and writes the picture: embed_minimal OUT.ppm [--small]   (--small: two orders of
+// scattering)
 #ifdef EMBED_USE_VOLK
 #define VOLK_IMPLEMENTATION
 #include <volk.h>
@@ -155,17 +155,18 @@ void transition(const Host& host, VkImageLayout from, VkImageLayout to) {
       VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER, nullptr, kAny, kAny, from, to};
   barrier.image = host.image;
   barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-  constexpr VkPipelineStageFlags kAll = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
-  vkCmdPipelineBarrier(host.commands, kAll, kAll, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+  vkCmdPipelineBarrier(host.commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT,
+                       VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
-void recordPicture(Host& host, ag::View* view) {
+void recordPicture(Host& host, ag::View* view, const ag::FrameDesc& frame) {
   constexpr VkImageLayout kDraw = VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL;
   constexpr VkImageLayout kCopy = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
   VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO, nullptr, host.view,
                                   kDraw};
   VkRenderingInfo rendering{
       VK_STRUCTURE_TYPE_RENDERING_INFO, nullptr, 0, {{}, {kWidth, kHeight}}, 1, 0, 1, &color};
+  check(ag::beginFrame(view, frame, nullptr), "Beginning the frame");
   check(ag::recordLuts(view, host.commands), "Updating the LUTs");
   transition(host, VK_IMAGE_LAYOUT_UNDEFINED, kDraw);
   vkCmdBeginRendering(host.commands, &rendering);
@@ -177,9 +178,10 @@ void recordPicture(Host& host, ag::View* view) {
 }
 
 void writePicture(const Host& host, const std::string& path) {
-  void* data = nullptr;
-  check(vkMapMemory(host.vulkan.device, host.bufferMemory, 0, VK_WHOLE_SIZE, 0, &data), "Mapping");
-  const float* pixels = static_cast<const float*>(data);
+  float* pixels = nullptr;
+  check(vkMapMemory(host.vulkan.device, host.bufferMemory, 0, VK_WHOLE_SIZE, 0,
+                    reinterpret_cast<void**>(&pixels)),
+        "Mapping");
   std::ofstream file(path, std::ios::binary);
   file << "P6\n" << kWidth << ' ' << kHeight << "\n255\n";
   for (uint32_t i = 0; i < kWidth * kHeight * 4; ++i) {
@@ -198,25 +200,21 @@ void drawSky(Host& host, const std::string& path, bool small) {
   if (small) desc.orders = 2, desc.quality = ag::Quality::Draft;
   ag::Tables* tables = nullptr;
   check(ag::createTables(host.context, earth, desc, &tables), "Making the tables");
-  for (ag::BakeProgress progress; !progress.done;) {
-    runFrame(host, [&] {
-      check(ag::recordBake(tables, host.commands, kSliceUnits, &progress), "Baking");
-    });
-  }
-
+  ag::BakeProgress bake;
+  const auto slice = [&] {
+    check(ag::recordBake(tables, host.commands, kSliceUnits, &bake), "Baking");
+  };
+  while (!bake.done) runFrame(host, slice);
   ag::ViewDesc viewDesc;
   viewDesc.colorFormat = kFormat;
   ag::View* view = nullptr;
   check(ag::createView(host.context, tables, viewDesc, &view), "Making the view");
   ag::FrameDesc frame;  // Its world is the planet frame; a game calls placeWorld.
-  ag::Camera& camera = frame.cameras[0];
-  camera = ag::cameraAt(earth, frame.world, 0.0, 0.0, 500.0, 90 * kDegree, 15 * kDegree, 0.0);
-  camera.viewport.extent = {kWidth, kHeight};
+  frame.cameras[0] =
+      ag::cameraAt(earth, frame.world, 0.0, 0.0, 500.0, 90 * kDegree, 15 * kDegree, 0.0);
+  frame.cameras[0].viewport.extent = {kWidth, kHeight};
   ag::directionAt(frame.world, 0.0, 0.0, 30 * kDegree, 140 * kDegree, frame.lights[0].direction);
-  runFrame(host, [&] {
-    check(ag::beginFrame(view, frame, nullptr), "Beginning the frame");
-    recordPicture(host, view);
-  });
+  runFrame(host, [&] { recordPicture(host, view, frame); });
   writePicture(host, path);
   ag::destroyContext(host.context);  // With the view and the tables.
 }
@@ -237,8 +235,7 @@ void destroy(const Host& host) {
 int main(int argc, char** argv) {
   if (argc < 2) fail("Usage: embed_minimal OUT.ppm [--small]");
   Host host;
-  makeDevice(host);
-  makeImage(host);
+  makeDevice(host), makeImage(host);
   drawSky(host, argv[1], argc > 2 && std::string(argv[2]) == "--small");
   destroy(host);
 }

@@ -7,7 +7,11 @@
 namespace alpenglow {
 inline namespace v1 {
 
-struct Context;  ///< Opaque.
+/// Opaque. Internally synchronised: functions that take a Context may be called from any thread at
+/// any time, except that host access to the Context must be externally synchronised in
+/// destroyContext, and host access to it and to every object made on it in advanceFrame and
+/// abandonFrame.
+struct Context;
 
 /// What the host wants to do. Bits; ask for what you use, each has its own requirements.
 enum Capability : uint32_t {
@@ -42,7 +46,7 @@ struct Requirements {
 struct ShaderHook {
   void* user = nullptr;
   /// Asked for each shader of each pipeline, when it is made: by createTables, recordBake,
-  /// createView, createLightShafts, recordProbe. `name` is the shader's in shaders.json, such as
+  /// createView, recordProbe. `name` is the shader's in shaders.json, such as
   /// "kSkyFragmentLut". True: `code`, `bytes` long, is used instead; it must live until the call
   /// that asked returns. Null with false. Code that declares a resource that ours doesn't, or is of
   /// another stage or group size, makes that call fail with InvalidArgument. Called from the thread
@@ -79,8 +83,7 @@ struct ContextDesc {
 /// Thread-safe.
 ALPENGLOW_API Status queryRequirements(const ContextDesc& desc, Requirements* out);
 
-/// Makes a context. Its functions are thread-safe; objects made on it (tables, views) are
-/// externally synchronised, and different ones may be recorded in parallel.
+/// Makes a context. `*out` is null on failure.
 ALPENGLOW_API Status createContext(const ContextDesc& desc, Context** out);
 
 /// The device must have finished with everything of the context. Tables and views that are alive

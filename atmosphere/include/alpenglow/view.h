@@ -8,10 +8,10 @@
 namespace alpenglow {
 inline namespace v1 {
 
-/// Opaque. Host access must be externally synchronised, except that after beginFrame the record
-/// functions of one view may be called in parallel with different command buffers, which must
-/// execute in the order in which the functions are declared below. Different views may be used in
-/// parallel.
+/// Opaque. Host access must be externally synchronised, except that recordAerialPerspective and
+/// recordSky of one frame may be called in parallel, with different command buffers, once the other
+/// record functions of that frame have returned. Command buffers execute in the order in which the
+/// record functions are declared below. Different views may be used in parallel.
 struct View;
 
 inline constexpr uint32_t kMaxCameras = 4;
@@ -65,9 +65,9 @@ enum class ColorSpace : uint32_t { Rec709, Rec2020, Xyz };  ///< Must be Rec709 
 
 /// What the picture looks like. Everything named here stays the host's.
 struct ViewDesc {
-  VkFormat colorFormat = VK_FORMAT_UNDEFINED;  ///< Of the scope's colour attachment.
-  VkFormat depthFormat = VK_FORMAT_UNDEFINED;  ///< Of its depth attachment; with one, only far
-                                               ///< pixels are drawn by recordSky.
+  VkFormat colorFormat = VK_FORMAT_UNDEFINED;       ///< Of the scope's colour attachment.
+  VkFormat depthFormat = VK_FORMAT_UNDEFINED;       ///< Of its depth attachment; with one, only far
+                                                    ///< pixels are drawn by recordSky.
   VkFormat sceneDepthFormat = VK_FORMAT_UNDEFINED;  ///< Of FrameDesc::sceneDepth; 0: depthFormat.
   DepthConvention depth = DepthConvention::Standard;
   uint32_t samples = 0;  ///< MSAA of the scope: 1, 2, 4 ...; 0: 1. Aerial perspective needs 1.
