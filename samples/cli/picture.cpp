@@ -75,6 +75,7 @@ io::LinearImage Painter::draw(const io::Scene& scene, const Tables* tables,
     gpu_.barrier(commands, target.image, samples::kColorDrawn, samples::kCopySource);
     return "readback";
   });
+  session_->nextFrame();
   return readPicture(session_, target);
 }
 

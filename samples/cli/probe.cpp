@@ -27,6 +27,7 @@ std::string probeTables(Session* session, const Tables* tables,
                                  &plain[first], count, buffer.buffer()));
       return "probe";
     });
+    session->nextFrame();
     session->check(answerQueries(tables, &plain[first], count, buffer.data(), &answers[first]));
   }
   return take(io::formatAnswers(queries, answers));

@@ -63,6 +63,11 @@ void Session::check(Status status) {
                                    : lastError_);
 }
 
+void Session::nextFrame() {
+  check(advanceFrame(context_, frame_ + 1, frame_));
+  ++frame_;
+}
+
 double Session::run(const std::function<std::string(VkCommandBuffer)>& record) {
   ResourceReport before;
   resourceReport(context_, &before);
@@ -84,7 +89,6 @@ double Session::run(const std::function<std::string(VkCommandBuffer)>& record) {
   if (thrown) std::rethrow_exception(thrown);
   if (!good) throw Failure(error);
   book(pass, before, timing);
-  check(advanceFrame(context_, device_->frame(), device_->frame() - 1));
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

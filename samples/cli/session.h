@@ -34,6 +34,8 @@ class Session {
   /// Records, submits, waits; `record` returns the name of the pass that the work is booked on and
   /// may throw. Returns the seconds that it took by the clock.
   double run(const std::function<std::string(VkCommandBuffer)>& record);
+  /// All that was run is a frame of the library's, and has completed.
+  void nextFrame();
 
   headless::HostBuffer hostBuffer(VkDeviceSize size, VkBufferUsageFlags usage);
   headless::Image image(VkExtent2D extent, VkFormat format, VkImageUsageFlags usage,
@@ -61,6 +63,7 @@ class Session {
 
   std::unique_ptr<headless::Device> device_;
   Context* context_ = nullptr;
+  uint64_t frame_ = 1;  ///< That is recorded now.
   std::string lastError_;
   std::string unfulfilled_;
   io::Report report_;

@@ -102,6 +102,7 @@ TablesPointer uploadTables(Session* session, const Parameters& parameters, io::T
                                        buffer.buffer(), 0));
       return "upload";
     });
+    session->nextFrame();
   }
   return tables;
 }
@@ -124,6 +125,7 @@ TablesPointer bakeTables(Session* session, const Parameters& parameters, const T
     bar.update(static_cast<double>(progress.unitsDone) / static_cast<double>(progress.unitsTotal),
                progress.pass);
     if (kept != nullptr) keepOrder(session, tables.get(), progress, kept);
+    session->nextFrame();
   }
   return tables;
 }

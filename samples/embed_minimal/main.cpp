@@ -20,7 +20,6 @@ static void volkLoadInstance(VkInstance) {}
 #include <string>
 
 namespace {
-
 namespace ag = alpenglow;
 constexpr uint32_t kWidth = 640, kHeight = 360;
 constexpr VkFormat kFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
@@ -160,21 +159,20 @@ void transition(const Host& host, VkImageLayout from, VkImageLayout to) {
 }
 
 void recordPicture(Host& host, ag::View* view, const ag::FrameDesc& frame) {
-  constexpr VkImageLayout kDraw = VK_IMAGE_LAYOUT_ATTACHMENT_OPTIMAL;
-  constexpr VkImageLayout kCopy = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+  constexpr VkImageLayout kLayout = VK_IMAGE_LAYOUT_GENERAL;  // A game uses the optimal ones.
   VkRenderingAttachmentInfo color{VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO, nullptr, host.view,
-                                  kDraw};
+                                  kLayout};
   VkRenderingInfo rendering{
       VK_STRUCTURE_TYPE_RENDERING_INFO, nullptr, 0, {{}, {kWidth, kHeight}}, 1, 0, 1, &color};
   check(ag::beginFrame(view, frame, nullptr), "Beginning the frame");
   check(ag::recordLuts(view, host.commands), "Updating the LUTs");
-  transition(host, VK_IMAGE_LAYOUT_UNDEFINED, kDraw);
+  transition(host, VK_IMAGE_LAYOUT_UNDEFINED, kLayout);
   vkCmdBeginRendering(host.commands, &rendering);
   check(ag::recordSky(view, host.commands), "Drawing the sky");
   vkCmdEndRendering(host.commands);
-  transition(host, kDraw, kCopy);
+  transition(host, kLayout, kLayout);
   VkBufferImageCopy copy{0, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, {}, {kWidth, kHeight, 1}};
-  vkCmdCopyImageToBuffer(host.commands, host.image, kCopy, host.buffer, 1, &copy);
+  vkCmdCopyImageToBuffer(host.commands, host.image, kLayout, host.buffer, 1, &copy);
 }
 
 void writePicture(const Host& host, const std::string& path) {
