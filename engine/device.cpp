@@ -6,8 +6,8 @@
 #include <cstdio>
 #include <new>
 
-#include "engine/structure.h"
 #include "engine/exceptions.h"
+#include "engine/structure.h"
 
 namespace alpenglow::engine {
 namespace {
@@ -109,9 +109,7 @@ Status Device::create(const DeviceDesc& desc, const Dispatch& table, Device** ou
                   properties.deviceName, VK_API_VERSION_MAJOR(properties.apiVersion),
                   VK_API_VERSION_MINOR(properties.apiVersion));
   }
-  ALPENGLOW_TRY {
-    *out = new Device(desc, table);
-  }
+  ALPENGLOW_TRY { *out = new Device(desc, table); }
   ALPENGLOW_CATCH_BAD_ALLOC {
     return refuse(desc, Status::OutOfHostMemory, "There is no host memory for a context.");
   }
@@ -243,9 +241,7 @@ void Device::countPipeline(uint64_t variantKey) {
   const auto place = std::lower_bound(variants_.begin(), variants_.end(), variantKey);
   if (place != variants_.end() && *place == variantKey) return;
   ++counters_.shaderVariants;
-  ALPENGLOW_TRY {
-    variants_.insert(place, variantKey);
-  }
+  ALPENGLOW_TRY { variants_.insert(place, variantKey); }
   ALPENGLOW_CATCH_BAD_ALLOC {
     // Without memory for the key, an equal pipeline made later is counted again: a figure in a
     // report, not worth failing a pipeline that works.

@@ -21,9 +21,7 @@ Status FrameSets::next(VkDescriptorSet* out) {
     *out = entry.set;
     return Status::Ok;
   }
-  ALPENGLOW_TRY {
-    entries_.reserve(entries_.size() + 1);
-  }
+  ALPENGLOW_TRY { entries_.reserve(entries_.size() + 1); }
   ALPENGLOW_CATCH_BAD_ALLOC {
     return device_.fail(Status::OutOfHostMemory, VK_SUCCESS, "A frame of %s found no host memory.",
                         name_);

@@ -1,5 +1,5 @@
-// Descriptor sets whose contents change from frame to frame: one for each frame in flight, reused when
-// its frame has completed.
+// Descriptor sets whose contents change from frame to frame: one for each frame in flight, reused
+// when its frame has completed.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
-// Frame numbers of the host, and the objects that must hear of them: what was recorded in a frame may
-// be dropped by the host, and what only a bake needs is freed when its last frame has completed.
+// Frame numbers of the host, and the objects that must hear of them: what was recorded in a frame
+// may be dropped by the host, and what only a bake needs is freed when its last frame has
+// completed.
 #pragma once
 
 #include <alpenglow/types.h>
@@ -37,8 +38,8 @@ class FrameObject {
   FrameObject *previous_ = nullptr, *next_ = nullptr;
 };
 
-/// The numbers, and the objects that are alive. Thread-safe; but the calls of the objects happen under
-/// its lock, so that they must not create or destroy others.
+/// The numbers, and the objects that are alive. Thread-safe; but the calls of the objects happen
+/// under its lock, so that they must not create or destroy others.
 class FrameList {
  public:
   uint64_t submitting() const { return submitting_; }

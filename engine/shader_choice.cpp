@@ -52,25 +52,25 @@ Status compare(const Device& device, const Shader& shader, const SpirvInterface&
 
 Status chooseShader(const Device& device, const Shader& own, Shader* out) {
   ALPENGLOW_TRY {
-  *out = own;
-  const ShaderReplacement& hook = device.shaderReplacement();
-  if (hook.replace == nullptr || own.code == nullptr) return Status::Ok;
-  Shader given = own;
-  if (!hook.replace(hook.user, own.name, &given.code, &given.bytes)) return Status::Ok;
-  SpirvInterface wanted, found;
-  if (const char* why = readInterface(given.code, given.bytes, &found)) {
-    return refuse(device, own, why);
-  }
-  if (readInterface(own.code, own.bytes, &wanted) == nullptr) {
-    const Status status = compare(device, own, wanted, found);
-    if (status != Status::Ok) return status;
-  }
-  *out = given;
-  return Status::Ok;
+    *out = own;
+    const ShaderReplacement& hook = device.shaderReplacement();
+    if (hook.replace == nullptr || own.code == nullptr) return Status::Ok;
+    Shader given = own;
+    if (!hook.replace(hook.user, own.name, &given.code, &given.bytes)) return Status::Ok;
+    SpirvInterface wanted, found;
+    if (const char* why = readInterface(given.code, given.bytes, &found)) {
+      return refuse(device, own, why);
+    }
+    if (readInterface(own.code, own.bytes, &wanted) == nullptr) {
+      const Status status = compare(device, own, wanted, found);
+      if (status != Status::Ok) return status;
+    }
+    *out = given;
+    return Status::Ok;
   }
   ALPENGLOW_CATCH_BAD_ALLOC {  // No exception may reach the host.
-  return device.fail(Status::OutOfHostMemory, VK_SUCCESS,
-                     "There is no host memory to look at the code for shader \"%s\".", own.name);
+    return device.fail(Status::OutOfHostMemory, VK_SUCCESS,
+                       "There is no host memory to look at the code for shader \"%s\".", own.name);
   }
 }
 

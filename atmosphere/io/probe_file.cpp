@@ -141,7 +141,7 @@ ReferenceAnswer answerFromJson(JsonErrors* errors, const Json& value, const Name
     return {};
   }
   return named.query.kind == QueryKind::Irradiance ? irradianceAnswer(errors, value, suffix)
-                                : rayAnswer(errors, value, suffix);
+                                                   : rayAnswer(errors, value, suffix);
 }
 
 template <typename Answer>

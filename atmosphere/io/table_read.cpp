@@ -55,8 +55,7 @@ std::string readMoments(const OIIO::ImageSpec& spec, TableDesc* desc) {
   const std::optional<Quality> found = findQuality(quality);
   if (!found) return "names the unknown quality '" + oneLine(quality) + "'";
   desc->quality = *found;
-  const Done done =
-      parseMomentSettings(spec.get_string_attribute(kMomentsAttribute), &desc->sizes);
+  const Done done = parseMomentSettings(spec.get_string_attribute(kMomentsAttribute), &desc->sizes);
   return done ? "" : "is refused: " + oneLine(done.error);
 }
 

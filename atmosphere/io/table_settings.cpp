@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "atmosphere/io/table_format.h"
 #include <alpenglow/table_limits.h>
+#include "atmosphere/io/table_format.h"
 
 namespace alpenglow::io {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <alpenglow/tables.h>
 
-#include "atmosphere/parameters/physics_cpp.h"
 #include <alpenglow/table_limits.h>
+#include "atmosphere/parameters/physics_cpp.h"
 
 namespace alpenglow::tables {
 
@@ -24,8 +24,8 @@ inline bool allSuns(const TableDesc& desc) {
 uint32_t nodesOfSunRange(const Parameters& parameters, const TableDesc& desc, uint32_t all);
 inline constexpr uint32_t kLeastSunNodes = 4;
 
-/// The sizes that a quality level has for an atmosphere, by the rule of docs/moment-solver.md, with what
-/// `given` has in place of it.
+/// The sizes that a quality level has for an atmosphere, by the rule of docs/moment-solver.md, with
+/// what `given` has in place of it.
 TableSizes momentSizes(const Parameters& parameters, Quality quality, const TableSizes& given);
 
 /// Orders of scattering that are computed one by one: TableDesc::orders, or for 0 as many as the

@@ -3,8 +3,8 @@
 #include "common/scene_plan.h"
 
 namespace alpenglow::cli {
-Painter::Painter(Session* session, const io::AlbedoMap* albedo,
-                 const ReadyTables& tables, const Plan& plan, Scenery* scenery)
+Painter::Painter(Session* session, const io::AlbedoMap* albedo, const ReadyTables& tables,
+                 const Plan& plan, Scenery* scenery)
     : session_(session), gpu_(session->gpu()), scenery_(scenery), solver_(tables.desc.solver) {
   ViewDesc desc = plan.view;
   desc.colorFormat = kPictureFormat;

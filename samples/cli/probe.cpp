@@ -23,8 +23,7 @@ std::string probeTables(Session* session, const Tables* tables,
     const headless::HostBuffer buffer =
         session->hostBuffer(count * kProbeAnswerBytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     session->run([&](VkCommandBuffer commands) {
-      session->check(recordProbe(tables, commands,
-                                 &plain[first], count, buffer.buffer()));
+      session->check(recordProbe(tables, commands, &plain[first], count, buffer.buffer()));
       return "probe";
     });
     session->nextFrame();

@@ -50,7 +50,8 @@ io::TablePart readTable(Session* session, Tables* tables, TableId id, const std:
     session->check(recordTableReadback(tables, commands, id, buffer.buffer(), 0));
     return "readback";
   });
-  io::TablePart part{name, info.extent.width, info.extent.height, info.extent.depth, formatOf(info), {}};
+  io::TablePart part{name, info.extent.width, info.extent.height, info.extent.depth, formatOf(info),
+                     {}};
   part.texels.resize(info.bytes);
   std::memcpy(part.texels.data(), buffer.data(), info.bytes);
   return part;
@@ -98,8 +99,7 @@ TablesPointer uploadTables(Session* session, const Parameters& parameters, io::T
         session->hostBuffer(part.texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     std::memcpy(buffer.data(), part.texels.data(), part.texels.size());
     session->run([&](VkCommandBuffer commands) {
-      session->check(recordTableUpload(tables.get(), commands, id,
-                                       buffer.buffer(), 0));
+      session->check(recordTableUpload(tables.get(), commands, id, buffer.buffer(), 0));
       return "upload";
     });
     session->nextFrame();
@@ -117,8 +117,7 @@ TablesPointer bakeTables(Session* session, const Parameters& parameters, const T
   BakeProgress progress;
   while (!progress.done) {
     const double seconds = session->run([&](VkCommandBuffer commands) {
-      session->check(
-          recordBake(tables.get(), commands, budget, &progress));
+      session->check(recordBake(tables.get(), commands, budget, &progress));
       return std::string(progress.pass);
     });
     budget = nextBudget(progress.unitsRecorded, seconds);

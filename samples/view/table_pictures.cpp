@@ -11,9 +11,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/tables_info.h"
 #include "interface.h"
 #include "picture.h"
-#include "common/tables_info.h"
 #include "widgets.h"
 
 namespace alpenglow::view {

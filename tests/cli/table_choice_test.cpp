@@ -110,7 +110,14 @@ TEST_F(TableChoice, SettingsThatDoNotFitAreRefused) {
 TEST_F(TableChoice, FilesOfTheOtherSolverAreRefused) {
   TableDesc standard;
   standard.solver = Solver::Standard;
-  standard.sizes = {.transmittanceMu = 64, .transmittanceR = 16, .irradianceMuS = 16, .irradianceR = 4, .scatteringR = 4, .scatteringMu = 8, .scatteringMuS = 8, .scatteringNu = 2};
+  standard.sizes = {.transmittanceMu = 64,
+                    .transmittanceR = 16,
+                    .irradianceMuS = 16,
+                    .irradianceR = 4,
+                    .scatteringR = 4,
+                    .scatteringMu = 8,
+                    .scatteringMuS = 8,
+                    .scatteringNu = 2};
   const std::string file = tables(standard);
   const std::vector<std::string> load = {"--tables", file};
   expectRefused(probeOf("earth", joined(load, {"--solver", "moments"})),

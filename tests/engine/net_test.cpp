@@ -136,7 +136,8 @@ class FixtureTest : public DeviceTest {
  protected:
   void provoke() {
     engine::Device* context = nullptr;
-    ASSERT_EQ(engine::Device::create(alpenglow::testing::deviceDesc(contextDesc()), &context), Status::Ok);
+    ASSERT_EQ(engine::Device::create(alpenglow::testing::deviceDesc(contextDesc()), &context),
+              Status::Ok);
     const VkDescriptorSetLayoutBinding twice[] = {
         {0, VK_DESCRIPTOR_TYPE_SAMPLER, 1, VK_SHADER_STAGE_ALL, nullptr},
         {0, VK_DESCRIPTOR_TYPE_SAMPLER, 1, VK_SHADER_STAGE_ALL, nullptr}};

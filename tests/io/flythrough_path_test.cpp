@@ -14,7 +14,7 @@ constexpr double kRadians = 3.14159265358979323846 / 180.0;
 
 double smooth(double u) { return u * u * (3.0 - 2.0 * u); }
 
-class FlythroughPath : public testing::Test {
+class FlythroughPath : public ::testing::Test {
  protected:
   void keys(const std::string& list) {
     const std::string text =

@@ -57,7 +57,14 @@ inline TableDesc smallStandard() {
   TableDesc desc;
   desc.solver = Solver::Standard;
   desc.orders = 2;
-  desc.sizes = {.transmittanceMu = 4, .transmittanceR = 3, .irradianceMuS = 5, .irradianceR = 2, .scatteringR = 2, .scatteringMu = 4, .scatteringMuS = 3, .scatteringNu = 2};
+  desc.sizes = {.transmittanceMu = 4,
+                .transmittanceR = 3,
+                .irradianceMuS = 5,
+                .irradianceR = 2,
+                .scatteringR = 2,
+                .scatteringMu = 4,
+                .scatteringMuS = 3,
+                .scatteringNu = 2};
   return desc;
 }
 

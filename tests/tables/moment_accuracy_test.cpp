@@ -1,6 +1,6 @@
 // Tables of the moment solver, at the default quality, against the kept truth of the path tracer:
-// total radiance of a ray, by sun band, in the measure of docs/reference-solution.md. The bounds are the
-// project's goals.
+// total radiance of a ray, by sun band, in the measure of docs/reference-solution.md. The bounds
+// are the project's goals.
 #include <cstdio>
 
 #include "tests/tables/truth_errors.h"

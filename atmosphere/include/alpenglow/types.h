@@ -85,7 +85,8 @@ struct ImageState {
 struct Box {
   double center[3] = {};
   double halfExtents[3] = {};
-  double axes[3][3] = {};  ///< Orthonormal directions of the three half extents; 0: the frame's axes.
+  double axes[3][3] =
+      {};  ///< Orthonormal directions of the three half extents; 0: the frame's axes.
 };
 
 /// A range of device memory from the host's hook.

@@ -118,8 +118,8 @@ class Device {
   /// The frame that `run` records now, or would record next; the one below it has completed. For
   /// advanceFrame.
   uint64_t frame() const;
-  /// Counts that frame as completed without commands, and returns the next one's number: after it, an
-  /// advanceFrame frees what was destroyed before.
+  /// Counts that frame as completed without commands, and returns the next one's number: after it,
+  /// an advanceFrame frees what was destroyed before.
   uint64_t skipFrame();
 
   HostBuffer createHostBuffer(VkDeviceSize size, VkBufferUsageFlags usage, std::string* error);
