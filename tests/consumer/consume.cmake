@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # Configures, builds and runs the project SOURCE in the folder WORK, which is emptied first; the
 # picture of embed_minimal goes to CHECK. ARGUMENTS: cmake's, separated by "|"; -DPLAIN=ON among
 # them: compiled without exceptions and RTTI.

@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # cmake -DBUILD=... -DPREFIX=... -DCONFIG=... -P install.cmake: installs into an empty prefix.
 file(REMOVE_RECURSE "${PREFIX}")
 execute_process(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${PREFIX}"
@@ -8,7 +9,7 @@ if(NOT result EQUAL 0)
 endif()
 
 foreach(file bin/alpenglow include/alpenglow/alpenglow.h include/alpenglow/headless.h
-        include/alpenglow/reference.h share/alpenglow/glsl/alpenglow/atmosphere.glsl
+        include/alpenglow/reference/reference.h share/alpenglow/glsl/alpenglow/atmosphere.glsl
         share/alpenglow/scenes/clear_noon.json share/alpenglow/data/earth.jpg
         share/alpenglow/data/stars.LICENSE)
   if(NOT EXISTS "${PREFIX}/${file}")

@@ -1,3 +1,4 @@
+cmake_minimum_required(VERSION 3.22)
 # Moves a copy of the package PREFIX into WORK and builds SOURCE from there by the compiler CXX alone.
 function(run step)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE result OUTPUT_VARIABLE output
