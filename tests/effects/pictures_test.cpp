@@ -101,6 +101,7 @@ TEST_F(EffectsTest, PersistentImagesMatchEnabledEffects) {
     EffectFlags disabledEffects;
     uint64_t images;
   } cases[] = {{0, 3}, {kMie, 2}, {kMultiple, 1}, {kMie | kMultiple, 1}, {kReflection, 3}};
+  finishFrames(context());  // What earlier tests destroyed goes.
   for (const auto& each : cases) {
     const ResourceReport before = report();
     Tables* made = bake(preset("earth"), each.disabledEffects);
