@@ -35,7 +35,8 @@ Check sizeBy(bool (*parse)(const std::string&, TableSizes*), const char* shape) 
   return [parse, shape](const std::string& text) {
     TableDesc desc;
     desc.solver = Solver::Standard;
-    desc = io::resolved(desc, {});
+    desc =
+        io::resolved(desc, presets(nullptr)->parameters);  // Sizes of Standard follow no parameter.
     if (!parse(text, &desc.sizes)) {
       return "'" + text + "' is not of the form " + shape + " with whole numbers from 2 to " +
              std::to_string(io::kMaxTableSide);
