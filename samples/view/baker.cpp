@@ -106,7 +106,9 @@ void Baker::record(const Frame& frame, PassTimer* timer, double seconds) {
     if (!baking_ || progress_.done) return;
     // The pass is that of the last call, or the one after it, which is unknown until it is
     // recorded.
-    const Kind before = {baking_->desc.quality, progress_.passFinished ? "" : progress_.pass};
+    // No pass has been recorded before the first slice.
+    const bool between = progress_.passFinished || progress_.pass == nullptr;
+    const Kind before = {baking_->desc.quality, between ? "" : progress_.pass};
     const double budget = std::max(seconds * unitsPerSecond(before), 1.0);
     timer->time(frame, "bake", [&] {
       gpu_->check(recordBake(baking_->tables.get(), frame.commands, static_cast<uint64_t>(budget),
