@@ -129,6 +129,7 @@ void Stage::prepare(const io::Scene& scene, const Air& air) {
 }
 
 bool Stage::done(Status status) {
+  if (status == Status::NotReady) return false;  // beginFrame has said why.
   const bool refused = status == Status::InvalidArgument || status == Status::Unsupported;
   try {
     gpu_->check(status);
