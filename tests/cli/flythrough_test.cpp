@@ -96,18 +96,24 @@ TEST_F(Flythroughs, TablesAreRebakedOnlyWhenTheMediumChanges) {
   const std::string changing = flythrough(R"({"time_s": 0}, {"time_s": 1},
       {"time_s": 2, "atmosphere": {"ground_albedo": [0.9, 0.9, 0.9]}})");
   expectGood(renderOf(changing, {"--report", folder_ / "changing.json"}));
-  const auto dispatches = [&](const char* name, const std::string& pass) -> int64_t {
+  const auto countOf = [&](const char* count, const char* name, const char* pass) -> int64_t {
     const nlohmann::json report = jsonOf(name);
     EXPECT_EQ(schemaError(ALPENGLOW_SCHEMA_FOLDER, "report.schema.json", report), "");
     for (const nlohmann::json& entry : report["passes"]) {
-      if (entry["name"] == pass) return entry["dispatches"];
+      if (entry["name"] == pass) return entry[count];
     }
     return -1;
+  };
+  const auto dispatches = [&](const char* name, const char* pass) {
+    return countOf("dispatches", name, pass);
   };
   EXPECT_EQ(dispatches("still.json", "T"), 1);
   EXPECT_EQ(dispatches("still.json", "sky"), 5);
   EXPECT_EQ(dispatches("changing.json", "T"), 3) << "frames 0 to 2, 3, and 4";
-  EXPECT_EQ(dispatches("changing.json", "sky"), 5);
+  EXPECT_EQ(dispatches("changing.json", "sky"), 3) << "frames 0 to 2 share a sky-view LUT";
+  for (const char* report : {"still.json", "changing.json"}) {
+    EXPECT_EQ(countOf("draws", report, "sky"), 5) << report;
+  }
   // Of the same shape, they are drawn by the same pipelines.
   EXPECT_EQ(jsonOf("still.json")["totals"]["pipelines"],
             jsonOf("changing.json")["totals"]["pipelines"]);
