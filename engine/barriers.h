@@ -25,6 +25,14 @@ inline constexpr ImageState kTransferDestination = {VK_IMAGE_LAYOUT_TRANSFER_DST
                                                     VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
                                                     VK_ACCESS_2_TRANSFER_WRITE_BIT};
 
+inline constexpr ImageState kColorDrawn = {
+    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
+    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
+inline constexpr ImageState kDepthDrawn = {
+    VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
+
 /// A batch of barriers between two pieces of work. Fixed capacity, no heap. Call `image` and the
 /// others for all that the next piece of work touches, then `record`, which empties the batch.
 /// Two calls for one image in one batch are merged: nothing runs between them.

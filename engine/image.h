@@ -7,6 +7,13 @@
 
 namespace alpenglow::engine {
 
+/// Vulkan's stages, accesses and layout of an image at one point of a command buffer.
+struct ImageState {
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+  VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
+  VkAccessFlags2 access = VK_ACCESS_2_NONE;
+};
+
 /// Always optimal tiling and one sample.
 struct ImageDesc {
   VkImageType type = VK_IMAGE_TYPE_2D;

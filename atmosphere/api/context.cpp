@@ -6,7 +6,7 @@
 #include "atmosphere/parameters/sentence.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 namespace {
 
 constexpr CapabilityFlags kDefaultCapabilities = kCapabilityBake | kCapabilitySky;
@@ -170,5 +170,5 @@ Status requireCapability(const Context& context, CapabilityFlags capability, con
                               capabilityName(capability));
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -7,7 +7,7 @@
 #include "atmosphere/tables/resources.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 struct Context {
   engine::Device* device = nullptr;
@@ -23,5 +23,5 @@ Status requireCapability(const Context& context, CapabilityFlags capability, con
 Status nullArgument(const Context* context, const char* call);
 Status nullArgument(const Tables* tables, const char* call);
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -1,7 +1,7 @@
 #include "atmosphere/api/device_desc.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 engine::FeatureSet featureSet(const Requirements& requirements) {
   engine::FeatureSet set;
@@ -52,5 +52,5 @@ ResourceReport resourceReportOf(const engine::Counters& counters) {
   return report;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -6,12 +6,12 @@
 #include "engine/device.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 engine::FeatureSet featureSet(const Requirements& requirements);
 /// Makes the context's device, or says why not: `needed` is what the context's capabilities need.
 Status createDevice(const ContextDesc& desc, const Requirements& needed, engine::Device** out);
 ResourceReport resourceReportOf(const engine::Counters& counters);
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -153,7 +153,7 @@ Status checkTables(const Parameters& parameters, const PlanRequest& request,
 
 }  // namespace
 
-inline namespace v1 {
+inline namespace v1_0 {
 
 Status makePlan(const Parameters& parameters, const PlanRequest& request, Plan* out,
                 const DiagnosticSink& sink) {
@@ -190,13 +190,13 @@ VisibilityFlags visibleFrom(const Parameters& parameters, Projection projection,
   const passes::ViewportPartition parts = passes::cut(parameters, picture, state);
   for (uint32_t i = 0; i < parts.count; ++i) {
     const passes::Visible& v = parts.parts[i].visible;
-    if (v.air) visible |= kVisibleSky;
+    if (v.atmosphere) visible |= kVisibleSky;
     if (v.ground) visible |= kVisibleGround;
-    if (!v.air) visible |= kVisibleSpace;
+    if (!v.atmosphere) visible |= kVisibleSpace;
     if (v.disc) visible |= kVisibleSun;
   }
   return visible;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

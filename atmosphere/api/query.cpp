@@ -9,7 +9,7 @@
 #include "atmosphere/parameters/solvers.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 namespace {
 
 Spectrum toPublic(const cpu::Spectrum& values) {
@@ -137,5 +137,5 @@ Status answerQueries(const Tables* tables, const ProbeQuery* queries, uint32_t c
   return Status::Ok;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

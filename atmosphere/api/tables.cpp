@@ -6,7 +6,7 @@
 #include "atmosphere/parameters/solvers.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 Status nullArgument(const Context* context, const char* call) {
   if (context == nullptr) return Status::InvalidArgument;
@@ -67,5 +67,5 @@ Status recordTableUpload(Tables* tables, VkCommandBuffer commands, TableId id, V
   return tables->recordUpload(commands, id, buffer, offset);
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

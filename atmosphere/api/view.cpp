@@ -5,7 +5,7 @@
 #include "atmosphere/view/view.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 namespace {
 
 Status nullCall(const View* view, const char* call) {
@@ -88,5 +88,5 @@ Status viewInfo(const View* view, ViewInfo* out) {
   return Status::Ok;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -2,7 +2,7 @@
 #include <alpenglow/tables.h>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 const char* modelLimit(Solver solver) {
   switch (solver) {
@@ -22,5 +22,5 @@ const char* modelLimit(Solver solver) {
   }
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "atmosphere/camera/projection.h"
 #include "atmosphere/camera/world.h"
@@ -56,11 +57,44 @@ void sunDirection(double latitude, double longitude, double elevation, double az
   }
 }
 
-inline namespace v1 {
+namespace {
 
-void placeWorld(const Parameters& planet, double latitude, double longitude, double altitude_m,
-                WorldAxes axes, World* world) {
-  if (world == nullptr) return;
+/// A latitude is within rounding of the poles' interval.
+bool isLatitude(double value) { return std::abs(value) <= 0.5 * kPi + 1e-9; }
+
+bool areFinite(std::initializer_list<double> values) {
+  return std::all_of(values.begin(), values.end(),
+                     [](double value) { return std::isfinite(value); });
+}
+
+Status checkPlace(double latitude, double longitude, double altitude_m,
+                  const DiagnosticSink& sink) {
+  using parameters::report;
+  using parameters::Sentence;
+  if (!isLatitude(latitude)) {
+    return report(
+        sink, Status::InvalidArgument,
+        Sentence() << "placeWorld got a latitude of " << latitude
+                   << ", but angles are in radians and a latitude is from -pi/2 to pi/2.");
+  }
+  if (!areFinite({longitude, altitude_m})) {
+    return report(sink, Status::InvalidArgument,
+                  Sentence() << "placeWorld got a longitude of " << longitude
+                             << " and an altitude of " << altitude_m
+                             << " m, but both must be finite.");
+  }
+  return Status::Ok;
+}
+
+}  // namespace
+
+inline namespace v1_0 {
+
+Status placeWorld(const Parameters& planet, double latitude, double longitude, double altitude_m,
+                  WorldAxes axes, World* world, const DiagnosticSink& sink) {
+  if (world == nullptr) return parameters::reportNull(sink, "placeWorld", "world");
+  const Status status = checkPlace(latitude, longitude, altitude_m, sink);
+  if (status != Status::Ok) return status;
   const Frame f = localFrame(latitude, longitude);
   const double r = planet.bottomRadius_m + altitude_m;
   for (int i = 0; i < 3; ++i) world->origin_m[i] = r * f.up[i];
@@ -87,14 +121,17 @@ void placeWorld(const Parameters& planet, double latitude, double longitude, dou
     world->axes[1][i] = y;
     world->axes[2][i] = z;
   }
+  return Status::Ok;
 }
 
 Camera cameraAt(const Parameters& planet, const World& world, double latitude, double longitude,
                 double altitude_m, double heading, double pitch, double roll) {
+  Camera camera;
+  if (!isLatitude(latitude) || !areFinite({longitude, altitude_m, heading, pitch, roll}))
+    return camera;
   const EyeCamera eye =
       cameraFromGeodetic(planet, latitude, longitude, altitude_m, heading, pitch, roll, 0.0);
   const passes::Placement placement(world);
-  Camera camera;
   placement.toWorld(eye.position_m, camera.position);
   placement.directionToWorld(eye.forward, camera.forward);
   placement.directionToWorld(eye.up, camera.up);
@@ -103,6 +140,8 @@ Camera cameraAt(const Parameters& planet, const World& world, double latitude, d
 
 void directionAt(const World& world, double latitude, double longitude, double elevation,
                  double azimuth, double direction[3]) {
+  std::fill_n(direction, 3, 0.0);
+  if (!isLatitude(latitude) || !areFinite({longitude, elevation, azimuth})) return;
   double planet[3];
   sunDirection(latitude, longitude, elevation, azimuth, planet);
   passes::Placement(world).directionToWorld(planet, direction);
@@ -126,5 +165,5 @@ Status clipFromCamera(Projection projection, DepthConvention depth, const Camera
   return Status::Ok;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

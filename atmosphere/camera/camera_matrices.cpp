@@ -8,7 +8,7 @@
 #include "atmosphere/parameters/sentence.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 namespace {
 
 Status refuse(const DiagnosticSink& sink, const char* matrix, const char* what) {
@@ -102,5 +102,5 @@ Status cameraFromMatrices(const double worldFromView[16], const double clipFromV
   return Status::Ok;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

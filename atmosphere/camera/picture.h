@@ -76,6 +76,7 @@ struct CasterSet {
   DrawCastersFn draw = nullptr;
   void* user = nullptr;
   uint64_t version = 0;
+  bool* outsideReported = nullptr;  ///< Of the view: a caster far outside `bounds` was reported.
 };
 
 /// A camera above a point of the planet. Angles in radians; altitudes below 0 count as 0.

@@ -130,7 +130,8 @@ Visible visible(const Parameters& parameters, const PictureDesc& desc, const Fra
   const double toNadir = angleBetween(cone.axis, down) - cone.half - margin;
   const double toSun = angleBetween(cone.axis, draw.sun.direction) - cone.half - margin;
   Visible result;
-  result.air = r <= parameters.topRadius_m || toNadir < std::asin(parameters.topRadius_m / r);
+  result.atmosphere =
+      r <= parameters.topRadius_m || toNadir < std::asin(parameters.topRadius_m / r);
   result.ground = toNadir < std::asin(std::min(1.0, parameters.bottomRadius_m / r));
   result.disc = draw.sun.discRadius > 0.0 && toSun < draw.sun.discRadius + edge;
   return result;

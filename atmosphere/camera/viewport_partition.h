@@ -12,8 +12,8 @@
 namespace alpenglow::passes {
 
 struct Visible {
-  bool air = true;
-  bool ground = true;  ///< Never without air.
+  bool atmosphere = true;
+  bool ground = true;  ///< Never without the atmosphere.
   bool disc = true;
   bool operator==(const Visible&) const = default;
 };
@@ -24,12 +24,12 @@ inline constexpr Visible kCombinations[] = {{false, false, false}, {true, false,
                                             {true, false, true},   {true, true, true}};
 inline constexpr uint32_t kVariants = std::size(kCombinations);
 constexpr uint32_t variant(const Visible& v) {
-  return (v.air ? v.ground ? 2u : 1u : 0u) + (v.disc ? 3u : 0u);
+  return (v.atmosphere ? v.ground ? 2u : 1u : 0u) + (v.disc ? 3u : 0u);
 }
 
 /// Whether a view without these effects draws such pixels.
 constexpr bool drawn(EffectFlags disabledEffects, const Visible& v) {
-  return (v.air || hasEffect(disabledEffects, Effect::SpaceViews)) &&
+  return (v.atmosphere || hasEffect(disabledEffects, Effect::SpaceViews)) &&
          (!v.ground || hasEffect(disabledEffects, Effect::Ground)) &&
          (!v.disc || hasEffect(disabledEffects, Effect::SunDisc));
 }

@@ -121,7 +121,7 @@ struct Between {
   }
 
   void moveCamera(SceneCamera* c) const;
-  void moveAir(Parameters* out) const;
+  void moveMedium(Parameters* out) const;
 };
 
 void Between::moveCamera(SceneCamera* c) const {
@@ -143,7 +143,7 @@ void Between::moveCamera(SceneCamera* c) const {
   }
 }
 
-void Between::moveAir(Parameters* out) const {
+void Between::moveMedium(Parameters* out) const {
   const auto step = [&](size_t i) {
     return same(scenes[i]->atmosphere, scenes[i + 1]->atmosphere) ? 0.0 : 1.0;
   };
@@ -154,7 +154,7 @@ void Between::moveAir(Parameters* out) const {
 
 void moveAll(const Between& between, Scene* scene) {
   between.moveCamera(&scene->camera);
-  between.moveAir(&scene->atmosphere);
+  between.moveMedium(&scene->atmosphere);
   scene->sun.elevation = between.number([](const Scene& s) { return s.sun.elevation; });
   scene->sun.azimuth = between.angle([](const Scene& s) { return s.sun.azimuth; });
   scene->sun.discRadius = between.number([](const Scene& s) { return s.sun.discRadius; });

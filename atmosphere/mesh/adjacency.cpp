@@ -13,7 +13,7 @@
 #include "engine/exceptions.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 namespace {
 
 using parameters::Sentence;
@@ -209,5 +209,5 @@ Status buildAdjacency(const MeshView& mesh, uint32_t* adjacency, AdjacencyReport
   return Status::Ok;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -11,7 +11,7 @@
 #include "atmosphere/parameters/sentence.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 namespace {
 
 using parameters::Sentence;
@@ -352,5 +352,5 @@ Status buildTerrain(const TerrainDesc& desc, TerrainVertex* vertices, uint32_t* 
   return Status::Ok;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

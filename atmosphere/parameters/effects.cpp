@@ -1,7 +1,7 @@
 #include <alpenglow/effects.h>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 const char* effectName(Effect effect) {
   constexpr const char* kNames[kEffectCount] = {
@@ -12,5 +12,5 @@ const char* effectName(Effect effect) {
   return index < kEffectCount ? kNames[index] : "";
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -7,7 +7,7 @@
 #include "atmosphere/parameters/sentence.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 namespace {
 
 static_assert(kSpectrumSize == 3, "The presets give values at 680, 550 and 440 nm.");
@@ -159,5 +159,5 @@ Status findPreset(const char* name, Parameters* out, const DiagnosticSink& sink)
   return parameters::report(sink, Status::InvalidArgument, why << ".");
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -1,7 +1,7 @@
 #include <alpenglow/types.h>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 const char* statusName(Status status) {
   switch (status) {
@@ -25,5 +25,5 @@ const char* statusName(Status status) {
   return "an unknown status";
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

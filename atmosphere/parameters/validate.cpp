@@ -7,7 +7,7 @@
 #include "atmosphere/parameters/sentence.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 namespace {
 
 using namespace parameters;
@@ -140,5 +140,5 @@ Status validate(const Parameters& parameters, const DiagnosticSink& sink) {
   return report(sink, Status::InvalidArgument, check.sentence());
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -9,20 +9,20 @@
 
 namespace alpenglow::passes {
 
-Status AirPass::make(const PictureDesc& desc, const LightShaftSet& shafts,
-                     VkPipelineLayout layout) {
+Status AerialPerspectivePass::make(const PictureDesc& desc, const LightShaftSet& shafts,
+                                   VkPipelineLayout layout) {
   layout_ = layout;
   return desc.aerialLut ? makePipeline(desc, shafts, true, &lutPipeline_)
                         : makePipeline(desc, shafts, false, &pipeline_);
 }
 
-void AirPass::destroy(uint64_t frame) {
+void AerialPerspectivePass::destroy(uint64_t frame) {
   for (VkPipeline pipeline : {pipeline_, lutPipeline_})
     device_.deletions().defer(frame, VK_OBJECT_TYPE_PIPELINE, engine::handleNumber(pipeline));
 }
 
-Status AirPass::makePipeline(const PictureDesc& desc, const LightShaftSet& shafts, bool fromLut,
-                             VkPipeline* out) {
+Status AerialPerspectivePass::makePipeline(const PictureDesc& desc, const LightShaftSet& shafts,
+                                           bool fromLut, VkPipeline* out) {
   namespace s = alpenglow::shaders;
   const bool reversed = desc.depth == DepthConvention::Reversed;
   engine::GraphicsPipelineDesc pipeline;
@@ -48,8 +48,10 @@ Status AirPass::makePipeline(const PictureDesc& desc, const LightShaftSet& shaft
   return engine::createGraphicsPipeline(device_, pipeline, out);
 }
 
-void AirPass::record(VkCommandBuffer commands, const AerialPerspectiveConstants& constants,
-                     const PictureSets& sets, const VkRect2D& viewport, bool fromLut) {
+void AerialPerspectivePass::record(VkCommandBuffer commands,
+                                   const AerialPerspectiveConstants& constants,
+                                   const PictureSets& sets, const VkRect2D& viewport,
+                                   bool fromLut) {
   const engine::Dispatch& vk = device_.vk();
   engine::setArea(device_, commands, viewport);
   vk.CmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, fromLut ? lutPipeline_ : pipeline_);

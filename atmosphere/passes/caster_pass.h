@@ -12,7 +12,7 @@ struct CasterTarget {
   VkPipelineLayout layout = VK_NULL_HANDLE;
   const ShadowMapPlace* map = nullptr;  ///< Else metres from the eye.
   const double* eye = nullptr;
-  const World* world = nullptr;
+  const CasterSet* casters = nullptr;
 };
 
 /// Push constants of place.glsl.

@@ -154,12 +154,12 @@ LightShaftFrame makeLightShaftFrame(const Parameters& parameters, const LightSha
   frame.pixels[2] = static_cast<float>(methodIndex(desc.method));
   frame.pixels[3] = desc.projection == Projection::Orthographic ? 1.0f : 0.0f;
 
-  const passes::AerialPerspectiveLookup air = passes::aerialPerspectiveLookup(parameters, draw);
-  const double skyView[3] = {air.view.skyView.horizon, air.view.skyView.span,
-                             air.view.skyView.bend};
-  store(frame.aerialSkyView, skyView, 1.0, air.view.extinction_);
-  store(frame.aerialSun, air.sunAzimuth, 1.0, air.view.startHeight);
-  frame.aerialHeight[0] = static_cast<float>(air.view.height);
+  const passes::AerialPerspectiveLookup lookup = passes::aerialPerspectiveLookup(parameters, draw);
+  const double skyView[3] = {lookup.view.skyView.horizon, lookup.view.skyView.span,
+                             lookup.view.skyView.bend};
+  store(frame.aerialSkyView, skyView, 1.0, lookup.view.extinction_);
+  store(frame.aerialSun, lookup.sunAzimuth, 1.0, lookup.view.startHeight);
+  frame.aerialHeight[0] = static_cast<float>(lookup.view.height);
   // A quarter of a cell's width along the beam, and the light-volume mesh of a lit slope hides
   // under the slope.
   frame.aerialHeight[1] =

@@ -19,10 +19,6 @@
 namespace alpenglow::passes {
 namespace {
 
-constexpr ImageState kBlended = {
-    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-    VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT};
-
 constexpr VkShaderStageFlags kMapStages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
 constexpr VkDescriptorSetLayoutBinding sampled(uint32_t binding, VkShaderStageFlags stages) {
   return {binding, VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 1, stages, nullptr};
@@ -310,7 +306,7 @@ Status LightShaftPass::drawShadows(VkCommandBuffer commands, const Tables& table
                                    const FrameState& draw, const HostImage& sceneDepth,
                                    const CasterSet& casters, VkDescriptorSet lut) {
   engine::Barriers barriers;
-  for (uint32_t i = 0; i < targetCount_; ++i) barriers.discard(targets_[i], kBlended);
+  for (uint32_t i = 0; i < targetCount_; ++i) barriers.discard(targets_[i], engine::kColorDrawn);
   Status status = barriers.record(device_, commands);
   if (status != Status::Ok) return status;
 
@@ -319,7 +315,7 @@ Status LightShaftPass::drawShadows(VkCommandBuffer commands, const Tables& table
     colors[i] =
         engine::structure<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
     colors[i].imageView = targets_[i].view;
-    colors[i].imageLayout = kBlended.layout;
+    colors[i].imageLayout = engine::kColorDrawn.layout;
     colors[i].loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
     colors[i].storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     if (i == 1) colors[i].clearValue.color.float32[0] = -std::numeric_limits<float>::infinity();
@@ -351,7 +347,7 @@ Status LightShaftPass::drawShadows(VkCommandBuffer commands, const Tables& table
     target.device = &device_;
     target.layout = layout_;
     target.eye = draw.camera.position_m;
-    target.world = &casters.world;
+    target.casters = &casters;
     double clip[16];
     passes::clipFromCamera(desc_.projection, desc_.depth, draw, clip);
     drawCasters(commands, target, desc_.method, draw.camera.position_m, clip, pipeline,

@@ -55,7 +55,7 @@ class Lut {
   engine::Device& device_;
   uint32_t count_ = 0;
   uint32_t constantBytes_ = 0;
-  ImageState readable_;
+  engine::ImageState readable_;
   engine::Image images_[kMostImages];
   engine::MemoryBlock block_;
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;

@@ -10,15 +10,13 @@
 namespace alpenglow::passes {
 namespace {
 
-constexpr ImageState kDepthDrawn = {
-    VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
-constexpr ImageState kRead = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-                              VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
-                                  VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
-                                  VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
-                              VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
+constexpr engine::ImageState kDepthDrawn = {VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
+                                            engine::kDepthDrawn.stage, engine::kDepthDrawn.access};
+constexpr engine::ImageState kRead = {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT |
+                                          VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
+                                          VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                                      VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
 
 }  // namespace
 
@@ -122,7 +120,7 @@ Status ShadowMap::record(VkCommandBuffer commands, const double sun[3], const Ca
   target.device = &device_;
   target.layout = layout_;
   target.map = &place_;
-  target.world = &casters.world;
+  target.casters = &casters;
   double clip[16];
   clipFromMap(place_, clip);
   drawCasters(commands, target, method_, place_.center, clip, pipeline_, rendering.renderArea,

@@ -168,19 +168,19 @@ AerialPerspectiveConstants makeAerialPerspectiveConstants(const Parameters& para
   const EyeCamera& c = draw.camera;
   const PictureEdges edges = pictureEdges(desc.projection, draw);
   const DepthScale depth = depthScale(desc.projection, desc.depth, draw.depth);
-  const AerialPerspectiveLookup air = aerialPerspectiveLookup(parameters, draw);
-  const physics_f64::SkyViewParams& skyView = air.view.skyView;
+  const AerialPerspectiveLookup lookup = aerialPerspectiveLookup(parameters, draw);
+  const physics_f64::SkyViewParams& skyView = lookup.view.skyView;
   const double views[3] = {skyView.horizon, skyView.span, skyView.bend};
   AerialPerspectiveConstants k = {};
-  store(k.upAltitude, air.up, 1.0, cameraAltitude(parameters, c));
+  store(k.upAltitude, lookup.up, 1.0, cameraAltitude(parameters, c));
   store(k.forwardA, c.forward, 1.0, depth.a);
   store(k.rightB, edges.right, 1.0, depth.b);
-  store(k.downExtinction, edges.down, 1.0, air.view.extinction_);
-  store(k.sunHeight, draw.sun.direction, 1.0, air.view.height);
+  store(k.downExtinction, edges.down, 1.0, lookup.view.extinction_);
+  store(k.sunHeight, draw.sun.direction, 1.0, lookup.view.height);
   store(k.irradiance, draw.sun.irradiance.value,
         draw.radianceScale == 0.0 ? 1.0 : draw.radianceScale, 0.0);
-  store(k.skyView, views, 1.0, air.view.startHeight);
-  store(k.sunAzimuth, air.sunAzimuth, 1.0, 0.0);
+  store(k.skyView, views, 1.0, lookup.view.startHeight);
+  store(k.sunAzimuth, lookup.sunAzimuth, 1.0, 0.0);
   return k;
 }
 

@@ -59,7 +59,7 @@ Status SkyPass::makePipelines(const PictureDesc& desc, const LightShaftSet& shaf
         engine::specBool(2, seen.ground),
         engine::specBool(3, seen.disc),
         engine::specFloat(4, reversed ? 0.0f : 1.0f),
-        engine::specBool(5, seen.air),
+        engine::specBool(5, seen.atmosphere),
         engine::specBool(6, desc.projection == Projection::Orthographic),
         engine::specUint(8, shafts.method),
         engine::specUint(9, shafts.stepCount),

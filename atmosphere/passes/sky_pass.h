@@ -93,9 +93,9 @@ class SkyPass {
 };
 
 /// Aerial perspective. Owned by a view; externally synchronised.
-class AirPass {
+class AerialPerspectivePass {
  public:
-  explicit AirPass(engine::Device& device) : device_(device) {}
+  explicit AerialPerspectivePass(engine::Device& device) : device_(device) {}
   Status make(const PictureDesc& desc, const LightShaftSet& shafts, VkPipelineLayout layout);
   void destroy(uint64_t frame);
   void record(VkCommandBuffer commands, const AerialPerspectiveConstants& constants,

@@ -130,7 +130,7 @@ const char* lightShaftChange(const Plan& has, const Plan& asked) {
 
 }  // namespace
 
-inline namespace v1 {
+inline namespace v1_0 {
 
 RecreateFlags comparePlans(const Plan& current, const Plan& next, const DiagnosticSink& sink) {
   if (covers(current, next.request)) return 0;
@@ -150,5 +150,5 @@ RecreateFlags comparePlans(const Plan& current, const Plan& next, const Diagnost
   return flags;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -30,7 +30,7 @@ double bandSunElevation(const physics_f64::Medium& medium, const ProbeQuery& que
 
 }  // namespace reference
 
-inline namespace v1 {
+inline namespace v1_0 {
 
 double bandSunElevation(const Parameters& parameters, const ProbeQuery& query) {
   if (reference::checkQuery(query, {}) != Status::Ok || validate(parameters, {}) != Status::Ok)
@@ -38,5 +38,5 @@ double bandSunElevation(const Parameters& parameters, const ProbeQuery& query) {
   return reference::bandSunElevation(makeMediumF64(parameters), query);
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -9,7 +9,7 @@
 #include "atmosphere/reference/single_scattering.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 class Reference {
  public:
@@ -17,7 +17,7 @@ class Reference {
   const reference::PathTracer tracer;
 };
 
-}  // namespace v1
+}  // namespace v1_0
 
 namespace reference {
 namespace {
@@ -103,7 +103,7 @@ ReferenceOptions completed(const ReferenceOptions& options) {
 }  // namespace
 }  // namespace reference
 
-inline namespace v1 {
+inline namespace v1_0 {
 
 Status createReference(const Parameters& parameters, Reference** out, const DiagnosticSink& sink) {
   if (out == nullptr) return parameters::reportNull(sink, "createReference", "the reference");
@@ -143,5 +143,5 @@ Status evaluateReference(const Parameters& parameters, const ProbeQuery& query,
   return status;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

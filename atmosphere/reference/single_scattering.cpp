@@ -308,7 +308,7 @@ ReferenceAnswer singleScattering(const Medium& medium, const ProbeQuery& query, 
 
 }  // namespace reference
 
-inline namespace v1 {
+inline namespace v1_0 {
 
 Status referenceSingleScattering(const Parameters& parameters, const ProbeQuery& query,
                                  ReferenceAnswer* out, const DiagnosticSink& sink) {
@@ -326,5 +326,5 @@ Status referenceSingleScattering(const Parameters& parameters, const ProbeQuery&
   return Status::Ok;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

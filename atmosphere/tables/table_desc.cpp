@@ -125,10 +125,8 @@ Status checkRanges(const DiagnosticSink& sink, const TableSizes& sizes) {
 Status checkSuns(const DiagnosticSink& sink, const TableDesc& desc) {
   const double from = desc.sunZenithFrom, to = desc.sunZenithTo;
   if (from >= 0.0 && to >= from && to <= std::numbers::pi) return Status::Ok;
-  return invalid(sink, Sentence() << "TableDesc has suns of zenith angles from " << from << " to "
-                                  << to
-                                  << " (sunZenithFrom, sunZenithTo), but they must rise from 0 to "
-                                     "at most pi.");
+  return invalid(sink, Sentence() << "TableDesc::sunZenithFrom is " << from << " and sunZenithTo "
+                                  << to << ", but they must rise from 0 to at most pi.");
 }
 
 Status checkEffects(const DiagnosticSink& sink, const TableDesc& desc) {
@@ -331,7 +329,7 @@ Status checkDeviceLimits(const engine::Device& device, const TableDesc& desc) {
 }  // namespace alpenglow::tables
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 Status resolveTableDesc(const Parameters& parameters, TableDesc* desc, const DiagnosticSink& sink) {
   using parameters::Sentence;
@@ -351,5 +349,5 @@ Status resolveTableDesc(const Parameters& parameters, TableDesc* desc, const Dia
   return status;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

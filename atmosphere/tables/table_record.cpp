@@ -4,7 +4,7 @@
 #include "atmosphere/tables/table_set.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 namespace {
 
 using tables::isOrderTable;
@@ -123,7 +123,7 @@ Status Tables::recordPass(VkCommandBuffer commands, const tables::Pass& pass, ui
   return Status::Ok;
 }
 
-ImageState Tables::readable() const {
+engine::ImageState Tables::readable() const {
   return {VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, desc_.readerStages,
           VK_ACCESS_2_SHADER_SAMPLED_READ_BIT};
 }
@@ -344,5 +344,5 @@ Status Tables::assertReadable() const {
   return Status::Ok;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -6,7 +6,7 @@
 #include "engine/exceptions.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 Tables::Tables(tables::Resources& resources, const Parameters& parameters, const TableDesc& desc,
                bool bakes)
@@ -211,5 +211,5 @@ Status Tables::makePipelines() {
   return Status::Ok;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -26,7 +26,7 @@ Status checkDeviceLimits(const engine::Device& device, const TableDesc& desc);
 }  // namespace alpenglow::tables
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 /// Externally synchronised, as every handle of its kind.
 struct Tables : public engine::FrameObject {
@@ -88,7 +88,7 @@ struct Tables : public engine::FrameObject {
   /// The image to copy now; kNoImage when the table is not finished.
   uint32_t readableImage(TableId id) const;
   Status missing(TableId id) const;
-  ImageState readable() const;  ///< Where readers sample the finished tables.
+  engine::ImageState readable() const;  ///< Where readers sample the finished tables.
   ImageInfo imageInfo(TableId id) const;
   void copyToBuffer(VkCommandBuffer commands, engine::Image& image, VkBuffer buffer,
                     VkDeviceSize offset);
@@ -141,5 +141,5 @@ struct Tables : public engine::FrameObject {
   bool scratchReleased_ = false;
 };
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

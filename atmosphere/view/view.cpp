@@ -8,7 +8,7 @@
 #include "atmosphere/passes/aerial_perspective_set.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 namespace {
 
 passes::LightShaftSet lightShaftSetOf(const passes::LightShaftPass& pass) {
@@ -218,6 +218,7 @@ Status View::takeFrame(const FrameDesc& desc) {
   status = passes::checkPartition(device_, picture, frame_.parts);
   if (status == Status::Ok && desc_.hasLightShafts) {
     frame_.casters = view::casterSet(desc, state);
+    frame_.casters.outsideReported = warnings_.outsideCasters();
     status = passes::checkCasters(device_, frame_.casters);
     if (status == Status::Ok) status = passes::checkViewport(device_, scene, state);
     if (status == Status::Ok) status = lightShafts_.resize(scene);
@@ -270,8 +271,8 @@ bool View::skyFromLut() const {
 RecordFlags View::needed() const {
   RecordFlags flags = kRecordSky;
   const bool sky = skyFromLut() && !skyLut_.current(*frame_.tables, frame_.state);
-  const bool air = desc_.picture.aerialLut && !aerialLut_.current(*frame_.tables, frame_.state);
-  if (sky || air) flags |= kRecordLuts;
+  const bool aerial = desc_.picture.aerialLut && !aerialLut_.current(*frame_.tables, frame_.state);
+  if (sky || aerial) flags |= kRecordLuts;
   if (desc_.picture.aerial) flags |= kRecordAerialPerspective;
   if (!desc_.hasLightShafts) return flags;
   if (lightShafts_.mapped() &&
@@ -402,10 +403,10 @@ void View::answer(FrameWork* work) const {
   work->record = needed();
   for (uint32_t i = 0; i < frame_.parts.count; ++i) {
     const passes::Visible& seen = frame_.parts.parts[i].visible;
-    if (seen.air) work->visible |= kVisibleSky;
+    if (seen.atmosphere) work->visible |= kVisibleSky;
     if (seen.ground) work->visible |= kVisibleGround;
     if (seen.disc) work->visible |= kVisibleSun;
-    if (!seen.air) work->visible |= kVisibleSpace;
+    if (!seen.atmosphere) work->visible |= kVisibleSpace;
   }
   if (desc_.picture.aerial) work->visible |= kVisibleScene;
   work->altitude_m = passes::cameraAltitude(parameters, state.camera);
@@ -442,5 +443,5 @@ void View::answer(FrameWork* work) const {
       VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
 }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -10,7 +10,7 @@
 #include "engine/frames.h"
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 /// Externally synchronised, but for the record functions after beginFrame (alpenglow/view.h).
 struct View : public engine::FrameObject {
@@ -65,7 +65,7 @@ struct View : public engine::FrameObject {
   passes::AerialPerspectiveLut aerialLut_;
   passes::LightShaftPass lightShafts_;
   passes::SkyPass skyPass_;
-  passes::AirPass aerialPass_;
+  passes::AerialPerspectivePass aerialPass_;
   engine::FrameSets pictureSets_;  ///< Set 1.
   bool hasPictureSet_ = false;
   VkDescriptorSet fixedSet_ = VK_NULL_HANDLE;  ///< Set 1 of a view without scene depth.
@@ -93,5 +93,5 @@ struct View : public engine::FrameObject {
   view::Warnings warnings_;
 };
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -11,11 +11,13 @@ class Warnings {
   /// Of a frame that has been checked.
   void check(const engine::Device& device, const Parameters& parameters, const FrameState& state,
              VkFormat colorFormat);
+  /// For CasterSet, whose casters are seen while they are drawn.
+  bool* outsideCasters() { return &outsideCasters_; }
 
  private:
   bool once(bool* reported, bool seen);
 
-  bool deepCamera_ = false, darkSun_ = false, overflow_ = false;
+  bool deepCamera_ = false, darkSun_ = false, overflow_ = false, outsideCasters_ = false;
 };
 
 }  // namespace alpenglow::view

@@ -11,17 +11,8 @@ namespace {
 
 using engine::structure;
 
-constexpr ImageState kUndefined = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_NONE,
-                                   VK_ACCESS_2_NONE};
-constexpr ImageState kColor = {
-    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-    VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT};
-constexpr ImageState kDepth = {
-    VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL,
-    VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-    VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT};
-constexpr ImageState kCopied = {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT,
-                                VK_ACCESS_2_TRANSFER_READ_BIT};
+constexpr ImageState kDepth = {VK_IMAGE_LAYOUT_DEPTH_ATTACHMENT_OPTIMAL, kDepthDrawn.stage,
+                               kDepthDrawn.access};
 constexpr VkImageLayout kRenderPassDepth = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL;
 
 float halfToFloat(uint16_t half) {
@@ -72,11 +63,11 @@ bool Target::makeRenderPass(std::string* error) {
   attachments[0].samples = desc_.samples;
   attachments[0].loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
   attachments[0].storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-  attachments[0].initialLayout = attachments[0].finalLayout = kColor.layout;
+  attachments[0].initialLayout = attachments[0].finalLayout = kColorDrawn.layout;
   attachments[1] = attachments[0];
   attachments[1].format = desc_.depth;
   attachments[1].initialLayout = attachments[1].finalLayout = kRenderPassDepth;
-  const VkAttachmentReference colorReference = {0, kColor.layout};
+  const VkAttachmentReference colorReference = {0, kColorDrawn.layout};
   const VkAttachmentReference depthReference = {1, kRenderPassDepth};
   const bool hasDepth = desc_.depth != VK_FORMAT_UNDEFINED;
   VkSubpassDescription subpass = {};
@@ -130,9 +121,9 @@ void Target::barrier(VkCommandBuffer commands, const Image& image, VkImageAspect
 void Target::prepare(VkCommandBuffer commands) {
   // A copy of this queue may still read what is drawn over now.
   ImageState before = kUndefined;
-  before.stage = kColor.stage | kCopied.stage;
-  barrier(commands, color_, VK_IMAGE_ASPECT_COLOR_BIT, before, kColor);
-  if (multisampled()) barrier(commands, resolved_, VK_IMAGE_ASPECT_COLOR_BIT, before, kColor);
+  before.stage = kColorDrawn.stage | kCopySource.stage;
+  barrier(commands, color_, VK_IMAGE_ASPECT_COLOR_BIT, before, kColorDrawn);
+  if (multisampled()) barrier(commands, resolved_, VK_IMAGE_ASPECT_COLOR_BIT, before, kColorDrawn);
   if (depth_.image() == VK_NULL_HANDLE) return;
   ImageState depth = kDepth;
   if (desc_.renderPass) depth.layout = kRenderPassDepth;
@@ -163,7 +154,7 @@ void Target::begin(VkCommandBuffer commands, const VkRect2D& area, VkAttachmentL
   }
   auto color = structure<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
   color.imageView = color_.view();
-  color.imageLayout = kColor.layout;
+  color.imageLayout = kColorDrawn.layout;
   color.loadOp = load;
   color.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
   auto depth = color;
@@ -171,7 +162,7 @@ void Target::begin(VkCommandBuffer commands, const VkRect2D& area, VkAttachmentL
   if (multisampled()) {
     color.resolveMode = VK_RESOLVE_MODE_AVERAGE_BIT;
     color.resolveImageView = resolved_.view();
-    color.resolveImageLayout = kColor.layout;
+    color.resolveImageLayout = kColorDrawn.layout;
   }
   depth.imageView = depth_.view();
   depth.imageLayout = kDepth.layout;
@@ -195,12 +186,12 @@ void Target::end(VkCommandBuffer commands) {
 
 void Target::copy(VkCommandBuffer commands, VkExtent2D size) {
   const Image& image = multisampled() ? resolved_ : color_;
-  barrier(commands, image, VK_IMAGE_ASPECT_COLOR_BIT, kColor, kCopied);
+  barrier(commands, image, VK_IMAGE_ASPECT_COLOR_BIT, kColorDrawn, kCopySource);
   VkBufferImageCopy copy = {};
   copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
   copy.imageExtent = {size.width, size.height, 1};
   function<PFN_vkCmdCopyImageToBuffer>("vkCmdCopyImageToBuffer")(
-      commands, image.image(), kCopied.layout, readback_.buffer(), 1, &copy);
+      commands, image.image(), kCopySource.layout, readback_.buffer(), 1, &copy);
   auto host = structure<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
   host.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
   host.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;

@@ -42,7 +42,8 @@ bool isSoftware(Session& session) {
 double frameSeconds(const io::Report& report, bool software) {
   double sum = 0.0;
   for (const io::ReportPass& pass : report.passes) {
-    for (const char* name : {"sky-view LUT", "shadow map", "shafts", "air", "sky"})
+    for (const char* name :
+         {"sky-view LUT", "shadow map", "light shafts", "aerial perspective", "sky"})
       if (pass.name == name && (software || !pass.gpuSeconds)) {
         sum += pass.cpuSeconds.value_or(0.0);
       } else if (pass.name == name) {
@@ -108,7 +109,8 @@ cost::Row rowNamed(const std::string& name, const io::Scene& scene) {
   row.name = name;
   row.family = "moments";
   row.detail = std::string("scene ") + kScene + " of " + std::to_string(scene.width) + " x " +
-               std::to_string(scene.height) + ", sky-view LUT, shafts, air and sky";
+               std::to_string(scene.height) +
+               ", sky-view LUT, light shafts, aerial perspective and sky";
   return row;
 }
 

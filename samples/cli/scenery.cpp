@@ -50,7 +50,7 @@ void Scenery::drawLightShafts(View* view) {
   });
   session_->run([&](VkCommandBuffer commands) {
     session_->check(recordLightShafts(view, commands));
-    return "shafts";
+    return "light shafts";
   });
 }
 
@@ -89,7 +89,7 @@ void Scenery::draw(View* view, const Tables* tables, FrameDesc frame, const head
     drawInto(target, frame, "terrain", true,
              [&](VkCommandBuffer commands) { landscape_.recordTerrain(commands, tables, frame); });
     if (hasAerialPerspective_)
-      drawInto(target, frame, "air", false, [&](VkCommandBuffer commands) {
+      drawInto(target, frame, "aerial perspective", false, [&](VkCommandBuffer commands) {
         session_->check(recordAerialPerspective(view, commands));
       });
   }

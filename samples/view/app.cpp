@@ -24,7 +24,8 @@ using std::chrono::duration;
 
 constexpr double kRestSeconds = 0.25;  // Without a change, before the picture is drawn in full.
 constexpr float kLeastScale = 0.25f;
-constexpr const char* kPassesOfPixels[] = {"sky", "air", "terrain", "balloons", "stars"};
+constexpr const char* kPassesOfPixels[] = {"sky", "aerial perspective", "terrain", "balloons",
+                                           "stars"};
 constexpr CapabilityFlags kNeeded = kCapabilityBake | kCapabilitySky;
 
 void keepError(void* user, const Diagnostic& diagnostic) {
@@ -182,7 +183,10 @@ void App::frame() {
   followScene();
   followShaders();
   // More while there is nothing else to do.
-  baker_.record(frame, &timer_, options_.config.bakeSeconds * (!air_ ? 6.0 : resting_ ? 2.0 : 1.0));
+  baker_.record(frame, &timer_,
+                options_.config.bakeSeconds * (!baked_    ? 6.0
+                                               : resting_ ? 2.0
+                                                          : 1.0));
   takeBake();
   drawPicture(frame);
   interface_.begin();
@@ -236,10 +240,10 @@ void App::followScene() {
     const Plan plan = samples::planRequest(scene, request);
     const bool all = baker_.want(scene.atmosphere, plan);
     state_.message.clear();
-    if (all && air_) {  // Other pipelines may be called for.
-      Air air = *air_;
-      air.plan = plan;
-      show(air);
+    if (all && baked_) {  // Other pipelines may be called for.
+      BakedAtmosphere baked = *baked_;
+      baked.plan = plan;
+      show(baked);
     }
   } catch (const std::exception& reason) {
     if (first) throw;
@@ -247,7 +251,7 @@ void App::followScene() {
   }
 }
 
-// The scene's air and method are what they were before; the user reads why.
+// The scene's atmosphere and method are what they were before; the user reads why.
 void App::goBack(const io::Scene& before, const std::string& why) {
   state_.message = why;
   io::Scene& now = state_.scene;
@@ -266,7 +270,7 @@ void App::followShaders() {
   if (!host_.shaders || !hasPlan_ || !host_.shaders->poll()) return;
   const auto makeAll = [this] {
     stage_.forget();
-    if (air_) prepareStage();
+    if (baked_) prepareStage();
     baker_.again();
   };
   try {
@@ -281,21 +285,21 @@ void App::followShaders() {
 }
 
 void App::takeBake() {
-  const std::optional<Air> made = baker_.take();
+  const std::optional<BakedAtmosphere> made = baker_.take();
   if (made) show(*made);
   if (const std::string why = baker_.takeRefusal(); !why.empty()) state_.message = why;
 }
 
 // Draws with it from now on; where the stage can't, all is as it was.
-void App::show(const Air& air) {
-  const std::optional<Air> before = air_;
+void App::show(const BakedAtmosphere& baked) {
+  const std::optional<BakedAtmosphere> before = baked_;
   const io::Scene sceneBefore = shownScene_;
-  air_ = air;
+  baked_ = baked;
   try {
     prepareStage();
   } catch (const std::exception& reason) {
     if (!before) throw;
-    air_ = before;
+    baked_ = before;
     goBack(sceneBefore, reason.what());
     baker_.keep(*before);
     prepareStage();
@@ -303,7 +307,7 @@ void App::show(const Air& air) {
 }
 
 void App::prepareStage() {
-  stage_.prepare(planned_, *air_);
+  stage_.prepare(planned_, *baked_);
   shownScene_ = planned_;
   stale_ = true;
 }
@@ -334,10 +338,10 @@ void App::drawPicture(const Frame& frame) {
   Shown now;
   now.draw = samples::describeDraw(scene);
   now.draw.cameras[0].viewport = {};
-  if (air_ && !air_->plan.choices[static_cast<uint32_t>(Effect::SunDisc)].on) {
+  if (baked_ && !baked_->plan.choices[static_cast<uint32_t>(Effect::SunDisc)].on) {
     now.draw.lights[0].discRadius = 0.0;
   }
-  now.tables = air_ ? air_->tables.get() : nullptr;
+  now.tables = baked_ ? baked_->tables.get() : nullptr;
   now.siderealHours = scene.stars ? scene.stars->siderealHours : -1.0;
   const bool changed = stale_ || now != shown_;
   if (changed) lastChange_ = Clock::now();
@@ -353,7 +357,7 @@ void App::drawPicture(const Frame& frame) {
   drawn_ = size;
   now.draw.cameras[0].viewport.extent = size;
   if (now.tables != nullptr) {
-    stage_.record(frame, scene, *air_, now.draw, picture_, &timer_);
+    stage_.record(frame, scene, *baked_, now.draw, picture_, &timer_);
     return picture_.measure(frame, size);
   }
   picture_.beginDrawing(frame.commands);
@@ -379,7 +383,7 @@ bool App::settled() const {
 
 void App::makePanel() {
   PanelFacts facts;
-  facts.air = air_ ? &*air_ : nullptr;
+  facts.baked = baked_ ? &*baked_ : nullptr;
   facts.baker = &baker_;
   facts.timer = &timer_;
   facts.bindings = &options_.config.bindings;

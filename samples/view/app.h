@@ -60,7 +60,7 @@ class App {
   void followScene();
   void followShaders();
   void takeBake();
-  void show(const Air& air);
+  void show(const BakedAtmosphere& baked);
   void goBack(const io::Scene& before, const std::string& why);
   void prepareStage();
   VkExtent2D chooseSize(VkExtent2D full);
@@ -81,7 +81,7 @@ class App {
   Baker baker_;
   Panel panel_;
   std::optional<Script> script_;
-  std::optional<Air> air_;  ///< What is drawn with.
+  std::optional<BakedAtmosphere> baked_;  ///< What is drawn with.
   State state_;
 
   io::Scene planned_;     ///< The scene that the last plan was made for.

@@ -29,20 +29,20 @@ TableDesc draftOf(TableDesc desc) {
 
 }  // namespace
 
-bool Baker::wanted(const Air& air, bool alsoDraft) const {
+bool Baker::wanted(const BakedAtmosphere& baked, bool alsoDraft) const {
   const TableDesc& desc = wish_.plan.tables;
-  return sameTables(air.desc, desc) && (alsoDraft || air.desc.quality == desc.quality) &&
-         io::firstDifference(air.parameters, wish_.parameters).empty();
+  return sameTables(baked.desc, desc) && (alsoDraft || baked.desc.quality == desc.quality) &&
+         io::firstDifference(baked.parameters, wish_.parameters).empty();
 }
 
 void Baker::start(bool draft) {
-  Air air = {wish_.parameters, wish_.plan, draft ? draftOf(wish_.plan.tables) : wish_.plan.tables,
-             nullptr};
+  BakedAtmosphere baked = {wish_.parameters, wish_.plan,
+                           draft ? draftOf(wish_.plan.tables) : wish_.plan.tables, nullptr};
   Tables* made = nullptr;
-  gpu_->check(createTables(context_, air.parameters, air.desc, &made));
+  gpu_->check(createTables(context_, baked.parameters, baked.desc, &made));
   const samples::Gpu* gpu = gpu_;
-  air.tables = {made, [gpu](Tables* tables) { destroyTables(tables); }};
-  baking_ = std::move(air);
+  baked.tables = {made, [gpu](Tables* tables) { destroyTables(tables); }};
+  baking_ = std::move(baked);
   draft_ = draft;
   progress_ = {};
 }
@@ -73,10 +73,10 @@ void Baker::again() {
   start(false);
 }
 
-void Baker::keep(const Air& air) {
-  wish_ = {air.parameters, air.plan};
+void Baker::keep(const BakedAtmosphere& baked) {
+  wish_ = {baked.parameters, baked.plan};
   baking_.reset();
-  made_ = air;
+  made_ = baked;
 }
 
 void Baker::learn(const Frame& frame, const PassTimer& timer) {
@@ -120,7 +120,7 @@ void Baker::record(const Frame& frame, PassTimer* timer, double seconds) {
   }
 }
 
-std::optional<Air> Baker::take() {
+std::optional<BakedAtmosphere> Baker::take() {
   if (!baking_ || !progress_.done) return std::nullopt;
   made_ = std::exchange(baking_, std::nullopt);
   if (!wanted(*made_, false)) {

@@ -11,7 +11,7 @@
 namespace alpenglow::view {
 
 /// What is to be simulated, and its tables.
-struct Air {
+struct BakedAtmosphere {
   Parameters parameters;
   Plan plan;
   TableDesc desc;  ///< As the plan's; of draft quality while a change is under way.
@@ -20,19 +20,19 @@ struct Air {
 
 class Baker {
  public:
-  /// Both outlive it and every Air of it.
+  /// Both outlive it and every BakedAtmosphere of it.
   Baker(const samples::Gpu* gpu, Context* context) : gpu_(gpu), context_(context) {}
 
   /// Starts what is missing. A change cancels a bake, but for drafts, which take a few frames:
   /// while a slider is being moved each of them is seen, and the full quality follows when it
-  /// rests. Returns whether the last Air has all of it already. Throws for what the library
-  /// refuses; then all is as it was.
+  /// rests. Returns whether the last BakedAtmosphere has all of it already. Throws for what the
+  /// library refuses; then all is as it was.
   bool want(const Parameters& parameters, const Plan& plan);
 
   /// Bakes what is wanted again: shaders have changed. Throws as want().
   void again();
   /// Wants what this one is, or would be in full, and nothing else.
-  void keep(const Air& air);
+  void keep(const BakedAtmosphere& baked);
 
   /// Records slices that take about `seconds` in all, by what such slices took before; timed as
   /// "bake".
@@ -40,7 +40,7 @@ class Baker {
 
   /// Once, when a bake is done: what it made. The next one starts; where it can't, takeRefusal()
   /// has the sentence, once.
-  std::optional<Air> take();
+  std::optional<BakedAtmosphere> take();
   std::string takeRefusal() { return std::exchange(refusal_, ""); }
 
   /// All that is wanted was made.
@@ -55,7 +55,7 @@ class Baker {
     Parameters parameters;
     Plan plan;
   };
-  bool wanted(const Air& air, bool alsoDraft) const;
+  bool wanted(const BakedAtmosphere& baked, bool alsoDraft) const;
   void start(bool draft);
   /// Work that a pass does in a second: passes differ by a factor of ten.
   using Kind = std::pair<Quality, std::string>;
@@ -65,7 +65,7 @@ class Baker {
   const samples::Gpu* gpu_;
   Context* context_;
   Wish wish_;
-  std::optional<Air> baking_, made_;
+  std::optional<BakedAtmosphere> baking_, made_;
   bool draft_ = false;  ///< What is being baked is one.
   BakeProgress progress_;
   std::string refusal_;

@@ -96,8 +96,8 @@ void showMethod(State* state, const PanelFacts& facts) {
     combo(state, "orders", "orders");
   }
   combo(state, "shafts", "light shafts");
-  if (facts.air == nullptr) return;
-  const Plan& plan = facts.air->plan;
+  if (facts.baked == nullptr) return;
+  const Plan& plan = facts.baked->plan;
   const char* limit = modelLimit(plan.tables.solver);
   if (limit[0] != '\0') ImGui::TextWrapped("%s", limit);
   // Of all orders: what is left out of choice is no error of the tables.
@@ -118,8 +118,8 @@ void showMethod(State* state, const PanelFacts& facts) {
 }
 
 void showEffects(State* state, const PanelFacts& facts) {
-  if (facts.air == nullptr) return;
-  const Plan& plan = facts.air->plan;
+  if (facts.baked == nullptr) return;
+  const Plan& plan = facts.baked->plan;
   for (uint32_t i = 0; i < kEffectCount; ++i) {
     const std::string name = effectName(static_cast<Effect>(i));
     const PlanChoice& choice = plan.choices[i];
@@ -160,8 +160,8 @@ void showCost(const PanelFacts& facts) {
   ImGui::Text("%llu images, %llu buffers, %llu pipelines",
               static_cast<unsigned long long>(r.images), static_cast<unsigned long long>(r.buffers),
               static_cast<unsigned long long>(r.pipelines));
-  if (facts.air != nullptr) {
-    const Plan& plan = facts.air->plan;
+  if (facts.baked != nullptr) {
+    const Plan& plan = facts.baked->plan;
     for (uint32_t i = 0; i < plan.imageCount; ++i) {
       const ImageInfo& table = plan.images[i];
       ImGui::BulletText("%s, %u x %u x %u: %.2f MB", table.name, table.extent.width,
@@ -244,7 +244,7 @@ void Panel::make(State* state, const PanelFacts& facts) {
     sliders(state, false);
   }
   if (section("Picture", true)) showPicture(state, facts);
-  if (section("Air", false)) {
+  if (section("Atmosphere", false)) {
     combo(state, "preset", "preset");
     constexpr double kHaze[2] = {1.0, 20.0};
     const auto haze =
@@ -255,8 +255,8 @@ void Panel::make(State* state, const PanelFacts& facts) {
   }
   if (section("Method", false)) showMethod(state, facts);
   if (section("Effects", false)) showEffects(state, facts);
-  if (section("Tables", false) && facts.air != nullptr) {
-    tables_->make(facts.air->tables.get(), facts.air->desc);
+  if (section("Tables", false) && facts.baked != nullptr) {
+    tables_->make(facts.baked->tables.get(), facts.baked->desc);
   }
   if (section("Cost", false)) showCost(facts);
   ImGui::Separator();

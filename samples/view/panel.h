@@ -13,7 +13,7 @@ namespace alpenglow::view {
 
 /// What the panel shows and does not change.
 struct PanelFacts {
-  const Air* air = nullptr;  ///< Null before the first bake is done.
+  const BakedAtmosphere* baked = nullptr;  ///< Null before the first bake is done.
   const Baker* baker = nullptr;
   const PassTimer* timer = nullptr;
   const std::vector<Binding>* bindings = nullptr;

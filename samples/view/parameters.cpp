@@ -18,15 +18,15 @@ class List {
  public:
   std::vector<Parameter> all;
 
-  void group(const char* name, bool ofAir) {
+  void group(const char* name, bool ofMedium) {
     group_ = name;
-    ofAir_ = ofAir;
+    ofMedium_ = ofMedium;
   }
   void add(const char* field, const char* unit, double least, double most, Find find,
            double factor = 1.0, bool logarithmic = false) {
     const std::string prefix = group_[0] == '\0' ? "" : std::string(group_) + ".";
-    all.push_back(
-        {group_, prefix + field, unit, least, most, logarithmic, ofAir_, std::move(find), factor});
+    all.push_back({group_, prefix + field, unit, least, most, logarithmic, ofMedium_,
+                   std::move(find), factor});
   }
   void logarithmic(const char* field, const char* unit, double least, double most, Find find) {
     add(field, unit, least, most, std::move(find), 1.0, true);
@@ -45,7 +45,7 @@ class List {
 
  private:
   const char* group_ = "";
-  bool ofAir_ = false;
+  bool ofMedium_ = false;
 };
 
 template <typename Part, typename Field>
@@ -63,7 +63,7 @@ std::function<Spectrum*(io::Scene&)> spectrumIn(Part Parameters::*part, Spectrum
   };
 }
 
-void addAir(List* list) {
+void addMedium(List* list) {
   list->group("", true);
   list->logarithmic("bottom_radius_m", "m", 1e4, 1e8,
                     [](io::Scene& s) { return &s.atmosphere.bottomRadius_m; });
@@ -154,7 +154,7 @@ void Parameter::set(io::Scene* scene, double value) const {
 std::span<const Parameter> parameters() {
   static const List kList = [] {
     List list;
-    addAir(&list);
+    addMedium(&list);
     addScene(&list);
     return list;
   }();
@@ -176,7 +176,7 @@ std::string whyInvalid(const io::Scene& scene) {
                                &why};
   if (validate(scene.atmosphere, sink) != Status::Ok) return why;
   for (const Parameter& parameter : parameters()) {
-    if (parameter.ofAir) continue;
+    if (parameter.ofMedium) continue;
     io::Scene copy = scene;
     const double* found = parameter.find(copy);
     if (found == nullptr) continue;

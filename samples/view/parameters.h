@@ -15,7 +15,7 @@ struct Parameter {
   const char* unit;
   double least, most;  ///< Of sliders: what is allowed, or less where that is beyond use.
   bool logarithmic;
-  bool ofAir;                               ///< A change of it needs other tables.
+  bool ofMedium;                            ///< A change of it needs other tables.
   std::function<double*(io::Scene&)> find;  ///< Null where the scene has no such thing.
   double factor = 1.0;                      ///< From the scene's number to the one shown.
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint32_t kMostFramesToSettle = 20000;
 constexpr char kTurbidity[] = "turbidity";
-const std::vector<std::string> kSections = {"Sun",     "Picture", "Air", "Method",
+const std::vector<std::string> kSections = {"Sun",     "Picture", "Atmosphere", "Method",
                                             "Effects", "Tables",  "Cost"};
 
 // Words of each step after its own: how many, and whether they are numbers.

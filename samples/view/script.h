@@ -13,10 +13,9 @@
 //   exposure VALUE|auto
 //   seek SECONDS         a flythrough, which then halts
 //   random N SEED        change a random parameter in each of N frames
-//   show SECTION...      opens these sections of the panel, such as Air, and closes the others
-//   save FILE            .png or .exr, as the keys do
-//   report FILE          JSON: the scene, times of the frames since the last report, memory
-//   quit
+//   show SECTION...      opens these sections of the panel, such as Atmosphere, and closes the
+//   others save FILE            .png or .exr, as the keys do report FILE          JSON: the scene,
+//   times of the frames since the last report, memory quit
 #pragma once
 
 #include <chrono>

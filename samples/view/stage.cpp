@@ -57,25 +57,25 @@ void Stage::load(const io::Scene& scene) {
   balloons_ = !scene.balloons.empty();
 }
 
-Stage::Key Stage::keyOf(const io::Scene& scene, const Air& air) const {
-  const ViewDesc& view = air.plan.view;
+Stage::Key Stage::keyOf(const io::Scene& scene, const BakedAtmosphere& baked) const {
+  const ViewDesc& view = baked.plan.view;
   const bool shafts = view.lightShafts.method != LightShaftMethod::Off && mesh_ &&
                       scene.shafts != io::SceneLightShafts::Off;
-  return {air.plan.tables.solver,
-          air.plan.tables.mie,
+  return {baked.plan.tables.solver,
+          baked.plan.tables.mie,
           view.disabledEffects,
           view.sky == SkyMethod::Lut,
           view.aerialPerspective != AerialPerspective::Off && mesh_.has_value(),
-          air.plan.tables.quality,
+          baked.plan.tables.quality,
           samples::projectionOf(scene.camera),
           shafts ? scene.shafts : io::SceneLightShafts::Off,
           scene.lightShaftStepCount};
 }
 
-void Stage::makeLandscape(const io::Scene& scene, const Key& key, const Air& air) {
+void Stage::makeLandscape(const io::Scene& scene, const Key& key, const BakedAtmosphere& baked) {
   samples::LandscapeDesc desc;
   desc.context = context_;
-  desc.tables = air.tables.get();
+  desc.tables = baked.tables.get();
   desc.size = size_;
   desc.colorFormat = kRadianceFormat;
   desc.solver = key.solver;
@@ -85,8 +85,8 @@ void Stage::makeLandscape(const io::Scene& scene, const Key& key, const Air& air
                      terrainAlbedo_ ? &*terrainAlbedo_ : nullptr, desc);
 }
 
-void Stage::makeView(const Key& key, const Air& air) {
-  ViewDesc desc = air.plan.view;
+void Stage::makeView(const Key& key, const BakedAtmosphere& baked) {
+  ViewDesc desc = baked.plan.view;
   desc.colorFormat = kRadianceFormat;
   desc.projection = key.projection;
   if (albedo_.image() != VK_NULL_HANDLE) {
@@ -94,34 +94,34 @@ void Stage::makeView(const Key& key, const Air& air) {
                          sampler_.get()};
   }
   desc.lightShafts.method = LightShaftMethod::Off;
-  if (!key.air) desc.aerialPerspective = AerialPerspective::Off;
+  if (!key.baked) desc.aerialPerspective = AerialPerspective::Off;
   if (landscape_) landscape_->describe(&desc);
-  gpu_->check(createView(context_, air.tables.get(), desc, &view_));
+  gpu_->check(createView(context_, baked.tables.get(), desc, &view_));
   if (landscape_) landscape_->follow(view_);
 }
 
-void Stage::prepare(const io::Scene& scene, const Air& air) {
-  const Key key = keyOf(scene, air);
-  const bool moved = mesh_ && air.parameters.bottomRadius_m != meshRadius_m_;
+void Stage::prepare(const io::Scene& scene, const BakedAtmosphere& baked) {
+  const Key key = keyOf(scene, baked);
+  const bool moved = mesh_ && baked.parameters.bottomRadius_m != meshRadius_m_;
   if (key_ == key && !moved) {
-    if (landscape_) landscape_->follow(air.parameters);
+    if (landscape_) landscape_->follow(baked.parameters);
     return;
   }
   gpu_->device().waitIdle();
   if (moved) {
-    mesh_ = samples::loadTerrain(air.parameters, *scene.terrain);
-    meshRadius_m_ = air.parameters.bottomRadius_m;
+    mesh_ = samples::loadTerrain(baked.parameters, *scene.terrain);
+    meshRadius_m_ = baked.parameters.bottomRadius_m;
   }
   if (key_ == key) {
-    landscape_->follow(air.parameters);
+    landscape_->follow(baked.parameters);
     return landscape_->uploadVertices();
   }
   destroyAll();
-  if (mesh_ || balloons_) makeLandscape(scene, key, air);
-  if (landscape_) landscape_->follow(air.parameters);
-  makeView(key, air);
+  if (mesh_ || balloons_) makeLandscape(scene, key, baked);
+  if (landscape_) landscape_->follow(baked.parameters);
+  makeView(key, baked);
   if (key.solver == Solver::Moments || key.solver == Solver::Standard) {
-    stars_.emplace(gpu_, samples::StarsDesc{air.tables.get(), kRadianceFormat,
+    stars_.emplace(gpu_, samples::StarsDesc{baked.tables.get(), kRadianceFormat,
                                             mesh_ ? samples::kDepthFormat : VK_FORMAT_UNDEFINED,
                                             key.projection, key.solver});
   }
@@ -144,23 +144,24 @@ void Stage::recordShadows(const Frame& frame, PassTimer* timer) {
   if ((work_.record & kRecordShadowMap) != 0) {
     timer->time(frame, "shadow map", [&] { done(recordShadowMap(view_, frame.commands)); });
   }
-  timer->time(frame, "shafts", [&] { done(recordLightShafts(view_, frame.commands)); });
+  timer->time(frame, "light shafts", [&] { done(recordLightShafts(view_, frame.commands)); });
 }
 
 // In the order that landscape.h gives; all of it fits one scope.
-void Stage::recordScope(const Frame& frame, const io::Scene& scene, const Air& air,
+void Stage::recordScope(const Frame& frame, const io::Scene& scene, const BakedAtmosphere& baked,
                         const FrameDesc& draw, PassTimer* timer) {
-  const Tables* tables = air.tables.get();
+  const Tables* tables = baked.tables.get();
   if (mesh_) {
     timer->time(frame, "terrain", [&] { landscape_->recordTerrain(frame.commands, tables, draw); });
-    if (key_->air) {
-      timer->time(frame, "air", [&] { done(recordAerialPerspective(view_, frame.commands)); });
+    if (key_->baked) {
+      timer->time(frame, "aerial perspective",
+                  [&] { done(recordAerialPerspective(view_, frame.commands)); });
     }
   }
   timer->time(frame, "sky", [&] { done(recordSky(view_, frame.commands)); });
   if (scene.stars && stars_) {
     timer->time(frame, "stars", [&] {
-      stars_->record(frame.commands, air.parameters, tables, draw, scene.stars->siderealHours);
+      stars_->record(frame.commands, baked.parameters, tables, draw, scene.stars->siderealHours);
     });
   }
   if (balloons_) {
@@ -169,11 +170,11 @@ void Stage::recordScope(const Frame& frame, const io::Scene& scene, const Air& a
   }
 }
 
-void Stage::record(const Frame& frame, const io::Scene& scene, const Air& air, FrameDesc draw,
-                   const Picture& picture, PassTimer* timer) {
+void Stage::record(const Frame& frame, const io::Scene& scene, const BakedAtmosphere& baked,
+                   FrameDesc draw, const Picture& picture, PassTimer* timer) {
   refusal_.clear();
   if (!key_) return;
-  draw.tables = air.tables.get();
+  draw.tables = baked.tables.get();
   if (landscape_) landscape_->describe(&draw);
   done(beginFrame(view_, draw, &work_));
   if ((work_.record & kRecordLuts) != 0)
@@ -186,7 +187,7 @@ void Stage::record(const Frame& frame, const io::Scene& scene, const Air& air, F
   picture.beginDrawing(frame.commands);
   gpu_->render(frame.commands, picture.target(), draw.cameras[0].viewport,
                VK_ATTACHMENT_LOAD_OP_CLEAR, landscape_ ? landscape_->depthAttachment() : nullptr,
-               [&] { recordScope(frame, scene, air, draw, timer); });
+               [&] { recordScope(frame, scene, baked, draw, timer); });
   picture.endDrawing(frame.commands);
 }
 

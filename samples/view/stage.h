@@ -27,14 +27,14 @@ class Stage {
 
   /// Makes the pipelines for these tables, unless there are: they follow solver, effects, quality
   /// and shaft method, and no parameter. Waits for the device where it must. Throws.
-  void prepare(const io::Scene& scene, const Air& air);
+  void prepare(const io::Scene& scene, const BakedAtmosphere& baked);
   /// Recreates all pipelines at the next prepare(): shaders have changed.
   void forget() { key_.reset(); }
 
   /// Draws into the picture's target. Outside rendering scopes. What the library refuses is left
   /// out of the picture; refusal() says why.
-  void record(const Frame& frame, const io::Scene& scene, const Air& air, FrameDesc draw,
-              const Picture& picture, PassTimer* timer);
+  void record(const Frame& frame, const io::Scene& scene, const BakedAtmosphere& baked,
+              FrameDesc draw, const Picture& picture, PassTimer* timer);
   const std::string& refusal() const { return refusal_; }
 
   bool hasTerrain() const { return mesh_.has_value(); }
@@ -45,18 +45,18 @@ class Stage {
     Solver solver;
     MieStorage mie;
     EffectFlags disabledEffects;
-    bool fromLut, air;
+    bool fromLut, baked;
     Quality quality;
     Projection projection;
     io::SceneLightShafts shafts;
     uint32_t lightShaftStepCount;
     bool operator==(const Key&) const = default;
   };
-  Key keyOf(const io::Scene& scene, const Air& air) const;
-  void makeLandscape(const io::Scene& scene, const Key& key, const Air& air);
-  void makeView(const Key& key, const Air& air);
+  Key keyOf(const io::Scene& scene, const BakedAtmosphere& baked) const;
+  void makeLandscape(const io::Scene& scene, const Key& key, const BakedAtmosphere& baked);
+  void makeView(const Key& key, const BakedAtmosphere& baked);
   void recordShadows(const Frame& frame, PassTimer* timer);
-  void recordScope(const Frame& frame, const io::Scene& scene, const Air& air,
+  void recordScope(const Frame& frame, const io::Scene& scene, const BakedAtmosphere& baked,
                    const FrameDesc& draw, PassTimer* timer);
   /// Whether the library did it.
   bool done(Status status);

@@ -144,10 +144,10 @@ std::optional<double> edited(State* state, const std::string& label, const std::
   return changed ? std::optional(shown) : std::nullopt;
 }
 
-void sliders(State* state, bool ofAir) {
+void sliders(State* state, bool ofMedium) {
   std::string group;
   for (const Parameter& parameter : parameters()) {
-    if (parameter.ofAir != ofAir || parameter.find(state->scene) == nullptr) continue;
+    if (parameter.ofMedium != ofMedium || parameter.find(state->scene) == nullptr) continue;
     if (group != parameter.group) {
       group = parameter.group;
       if (!group.empty()) ImGui::TextDisabled("%s", group.c_str());

@@ -29,6 +29,6 @@ std::optional<double> edited(State* state, const std::string& label, const std::
 
 /// Sliders over all parameters of the atmosphere, or all others, under their groups' names. A value
 /// that isn't allowed is left out, and State::message has the reason.
-void sliders(State* state, bool ofAir);
+void sliders(State* state, bool ofMedium);
 
 }  // namespace alpenglow::view

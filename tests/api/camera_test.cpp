@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tests/parameters/heard.h"
 
@@ -27,7 +28,7 @@ TEST(Camera, DirectionsLieInTheAxesThatAreNamed) {
                                          {{1, 0, 0}, {0, 0, 1}, {0, 1, 0}}};
   for (int axes = 0; axes < 4; ++axes) {
     World world;
-    placeWorld(earth(), 0.7, -1.9, 300.0, kLocalAxes[axes], &world);
+    ASSERT_EQ(placeWorld(earth(), 0.7, -1.9, 300.0, kLocalAxes[axes], &world, {}), Status::Ok);
     EXPECT_NEAR(std::sqrt(dot(world.origin_m, world.origin_m)), earth().bottomRadius_m + 300.0,
                 1e-6);
     const double angles[3][2] = {{0.0, 90.0 * kDegree}, {0.0, 0.0}, {90.0 * kDegree, 0.0}};
@@ -46,7 +47,7 @@ TEST(Camera, TheSamePlaceInAnyWorld) {
   for (const WorldAxes axes : {WorldAxes::EarthCentered, WorldAxes::ZUp, WorldAxes::YUp,
                                WorldAxes::ZUpLeftHanded, WorldAxes::YUpLeftHanded}) {
     World world;
-    placeWorld(earth(), 0.79, 0.21, 10.0, axes, &world);
+    ASSERT_EQ(placeWorld(earth(), 0.79, 0.21, 10.0, axes, &world, {}), Status::Ok);
     const Camera camera = cameraAt(earth(), world, 0.8, 0.2, 1500.0, 0.9, -0.3, 0.4);
     EXPECT_NEAR(dot(camera.forward, camera.forward), 1.0, 1e-12);
     EXPECT_NEAR(dot(camera.forward, camera.up), 0.0, 1e-12);
@@ -65,6 +66,43 @@ TEST(Camera, TheSamePlaceInAnyWorld) {
       EXPECT_NEAR(up, inPlanet.up[k], 1e-12) << int(axes) << k;
     }
   }
+}
+
+// Degrees in place of radians are what is mistaken most often.
+TEST(Camera, PlacesBeyondThePolesAreRefused) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  World world;
+  world.origin_m[0] = 7.0;
+  testing::Heard heard;
+  const auto place = [&](double latitude, double longitude, double altitude) {
+    return placeWorld(earth(), latitude, longitude, altitude, WorldAxes::YUp, &world, heard.sink());
+  };
+  EXPECT_EQ(place(36.5, 0.0, 0.0), Status::InvalidArgument);
+  EXPECT_NE(heard.sentence.find("latitude of 36.5"), std::string::npos) << heard.sentence;
+  EXPECT_NE(heard.sentence.find("radians"), std::string::npos) << heard.sentence;
+  EXPECT_EQ(place(kNan, 0.0, 0.0), Status::InvalidArgument);
+  EXPECT_EQ(place(0.1, kNan, 0.0), Status::InvalidArgument);
+  EXPECT_EQ(place(0.1, 0.0, kInfinity), Status::InvalidArgument);
+  EXPECT_EQ(heard.count, 4);
+  EXPECT_EQ(world.origin_m[0], 7.0);
+  EXPECT_EQ(world.axes[0][0], 0.0);
+  EXPECT_EQ(placeWorld(earth(), 0.0, 0.0, 0.0, WorldAxes::YUp, nullptr, heard.sink()),
+            Status::InvalidArgument);
+  EXPECT_NE(heard.sentence.find("null for world"), std::string::npos) << heard.sentence;
+  // Both poles are places.
+  EXPECT_EQ(place(90.0 * kDegree, 0.0, 0.0), Status::Ok);
+  EXPECT_EQ(place(-90.0 * kDegree, 400.0, 0.0), Status::Ok);
+
+  for (const double bad : {36.5, kNan}) {
+    const Camera camera = cameraAt(earth(), {}, bad, 0.0, 2.0, 0.0, 0.0, 0.0);
+    EXPECT_EQ(dot(camera.forward, camera.forward), 0.0);
+    double direction[3] = {1.0, 1.0, 1.0};
+    directionAt({}, bad, 0.0, 0.5, 0.0, direction);
+    EXPECT_EQ(dot(direction, direction), 0.0);
+  }
+  const Camera camera = cameraAt(earth(), {}, 0.1, 0.0, 2.0, 0.0, kNan, 0.0);
+  EXPECT_EQ(dot(camera.forward, camera.forward), 0.0);
 }
 
 // The host's matrices give the camera whose own matrix is theirs.

@@ -18,7 +18,7 @@ TEST_F(StandardSkyTest, ContextArgumentsAreChecked) {
   desc.capabilities = 1u << 7;
   EXPECT_EQ(createContext(desc, &made), Status::InvalidArgument);
   EXPECT_TRUE(contains(lastDiagnostic(), "capabilities")) << lastDiagnostic();
-  const auto without = [&](auto member) {
+  const auto lacking = [&](auto member) {
     ContextDesc spoilt = contextDesc();
     spoilt.*member = nullptr;
     made = reinterpret_cast<Context*>(uintptr_t{1});
@@ -26,11 +26,11 @@ TEST_F(StandardSkyTest, ContextArgumentsAreChecked) {
     EXPECT_EQ(made, nullptr);
     return status;
   };
-  EXPECT_EQ(without(&ContextDesc::instance), Status::InvalidArgument);
+  EXPECT_EQ(lacking(&ContextDesc::instance), Status::InvalidArgument);
   EXPECT_TRUE(contains(lastDiagnostic(), "ContextDesc::instance is null")) << lastDiagnostic();
-  EXPECT_EQ(without(&ContextDesc::physicalDevice), Status::InvalidArgument);
-  EXPECT_EQ(without(&ContextDesc::device), Status::InvalidArgument);
-  EXPECT_EQ(without(&ContextDesc::getInstanceProcAddr), Status::InvalidArgument);
+  EXPECT_EQ(lacking(&ContextDesc::physicalDevice), Status::InvalidArgument);
+  EXPECT_EQ(lacking(&ContextDesc::device), Status::InvalidArgument);
+  EXPECT_EQ(lacking(&ContextDesc::getInstanceProcAddr), Status::InvalidArgument);
   desc = contextDesc();
   desc.enabled.deviceFeatures &= ~DeviceFeatureFlags{kFeatureSynchronization2};
   EXPECT_EQ(createContext(desc, &made), Status::Unsupported);

@@ -20,11 +20,11 @@ class Zero : public ::testing::Test {};
 using Structs =
     ::testing::Types<AbsorptionParameters, AdjacencyReport, BakeProgress, Box, Camera, CasterPass,
                      Casters, ContextDesc, Diagnostic, DiagnosticSink, FrameDesc, FrameWork,
-                     HostImage, ImageInfo, ImageState, Light, LightDesc, LightShaftDesc,
-                     MemoryHooks, MemoryRange, MeshView, MieParameters, Parameters, Plan,
-                     PlanChoice, PlanCost, PlanRequest, Preset, ProbeAnswer, ProbeQuery,
-                     RayleighParameters, Requirements, ResourceReport, ShaderHook, Spectrum,
-                     TableDesc, TableSizes, TablesInfo, ViewDesc, ViewInfo, World>;
+                     HostImage, ImageInfo, Light, LightDesc, LightShaftDesc, MemoryHooks,
+                     MemoryRange, MeshView, MieParameters, Parameters, Plan, PlanChoice, PlanCost,
+                     PlanRequest, Preset, ProbeAnswer, ProbeQuery, RayleighParameters, Requirements,
+                     ResourceReport, ShaderHook, Spectrum, TableDesc, TableSizes, TablesInfo,
+                     ViewDesc, ViewInfo, World>;
 TYPED_TEST_SUITE(Zero, Structs);
 
 /// Over bytes that are zero, since what pads a struct is nobody's.

@@ -225,12 +225,12 @@ TEST_F(Stars, GroundAndTerrainHideThem) {
   shot.fov_deg = 30.0;
   const nlohmann::json terrain = {
       {"terrain", {{"height_map", "wall.exr"}, {"meters_per_pixel", 1000}}}, {"shafts", "off"}};
-  const LinearImage with = render(shot, true, terrain), without = render(shot, false, terrain);
+  const LinearImage with = render(shot, true, terrain), starless = render(shot, false, terrain);
   const size_t half = with.pixels.size() / 2;  // The wall's top stands 22 degrees high.
   EXPECT_FALSE(std::equal(with.pixels.begin(), with.pixels.begin() + static_cast<long>(half) / 2,
-                          without.pixels.begin()));
+                          starless.pixels.begin()));
   EXPECT_TRUE(std::equal(with.pixels.begin() + static_cast<long>(half), with.pixels.end(),
-                         without.pixels.begin() + static_cast<long>(half)));
+                         starless.pixels.begin() + static_cast<long>(half)));
   EXPECT_GT(irradiance(render(shot, true), shot)[1], irradiance(with, shot)[1]);
 }
 
@@ -241,7 +241,7 @@ struct DetectedStar {
   double sky = 0.0;    ///< There.
 };
 
-std::vector<DetectedStar> starsOf(const LinearImage& with, const LinearImage& without,
+std::vector<DetectedStar> starsOf(const LinearImage& with, const LinearImage& starless,
                                   const Shot& shot) {
   Parameters earth;
   EXPECT_EQ(findPreset("earth", &earth, {}), Status::Ok);
@@ -263,8 +263,8 @@ std::vector<DetectedStar> starsOf(const LinearImage& with, const LinearImage& wi
     const double y = (row(1) / row(3) + 1.0) * 0.5 * shot.height;
     if (x < 0.0 || y < 0.0 || x >= shot.width || y >= shot.height) continue;
     const size_t i = (static_cast<size_t>(y) * shot.width + static_cast<size_t>(x)) * 3 + 1;
-    detected.push_back({star.magnitude, static_cast<double>(with.pixels[i] - without.pixels[i]),
-                        static_cast<double>(without.pixels[i])});
+    detected.push_back({star.magnitude, static_cast<double>(with.pixels[i] - starless.pixels[i]),
+                        static_cast<double>(starless.pixels[i])});
   }
   return detected;
 }

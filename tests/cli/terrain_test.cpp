@@ -114,9 +114,11 @@ TEST_F(Terrain, DisabledShaftsCostNothing) {
     }
     return false;
   };
-  for (const char* pass : {"terrain depth", "shadow map", "shafts", "terrain", "air", "sky"}) {
+  for (const char* pass :
+       {"terrain depth", "shadow map", "light shafts", "terrain", "aerial perspective", "sky"}) {
     EXPECT_TRUE(has(exact, pass)) << pass;
-    const bool ofLightShafts = std::string(pass) == "shadow map" || std::string(pass) == "shafts";
+    const bool ofLightShafts =
+        std::string(pass) == "shadow map" || std::string(pass) == "light shafts";
     EXPECT_EQ(has(off, pass), !ofLightShafts) << pass;
     EXPECT_EQ(has(plain, pass), std::string(pass) == "sky") << pass;
   }

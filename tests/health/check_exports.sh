@@ -15,7 +15,7 @@ exported=""
 failed=0
 for library in "$@"; do
   symbols="$("$nm" -D --defined-only -C "$library" | sed -E 's/^[0-9a-f]* . //' | sort -u)"
-  foreign="$(grep -vE '^alpenglow::v1::[A-Za-z_0-9]+\(' <<<"$symbols" || true)"
+  foreign="$(grep -vE '^alpenglow::v1_0::[A-Za-z_0-9]+\(' <<<"$symbols" || true)"
   if [[ -n "$foreign" ]]; then
     printf '%s exports what is no function of the interface:\n%s\n' "$library" "$foreign" >&2
     failed=1
@@ -25,7 +25,7 @@ for library in "$@"; do
     printf '%s has symbols of Vulkan:\n%s\n' "$library" "$vulkan" >&2
     failed=1
   fi
-  exported+="$(sed -nE 's/^alpenglow::v1::([A-Za-z_0-9]+)\(.*/\1/p' <<<"$symbols")"$'\n'
+  exported+="$(sed -nE 's/^alpenglow::v1_0::([A-Za-z_0-9]+)\(.*/\1/p' <<<"$symbols")"$'\n'
 done
 exported="$(sort -u <<<"$exported" | sed '/^$/d')"
 

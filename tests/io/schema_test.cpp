@@ -110,9 +110,9 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
       changed["camera"][key] = value;
       compare(changed);
     }
-    Json without = orthographic;
-    without["camera"].erase(key);
-    compare(without);
+    Json reduced = orthographic;
+    reduced["camera"].erase(key);
+    compare(reduced);
   }
   for (const std::string& model : modelNames()) {
     Json other = good;
@@ -126,15 +126,15 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
     }
   }
   for (const auto& field : good["terrain"].items()) {
-    Json without = good;
-    without["terrain"].erase(field.key());
-    compare(without);
+    Json reduced = good;
+    reduced["terrain"].erase(field.key());
+    compare(reduced);
   }
   const Json balloon = good["balloons"][0];
   for (const auto& field : balloon.items()) {
-    Json without = good;
-    without["balloons"][0].erase(field.key());
-    compare(without);
+    Json reduced = good;
+    reduced["balloons"][0].erase(field.key());
+    compare(reduced);
     for (const Json& value : values) {
       Json changed = good;
       changed["balloons"][0][field.key()] = value;
@@ -142,9 +142,9 @@ TEST(Schema, ReaderAndSchemaRefuseTheSameScenes) {
     }
   }
   for (const auto& field : good.items()) {
-    Json without = good;
-    without.erase(field.key());
-    compare(without);
+    Json reduced = good;
+    reduced.erase(field.key());
+    compare(reduced);
     for (const Json& value : values) {
       Json changed = good;
       changed[field.key()] = value;

@@ -202,16 +202,16 @@ TEST_F(Damage, EverySettingMustBeThere) {
   for (size_t start = 0; start < all.size();) {
     const size_t end = std::min(all.find(',', start), all.size() - 1);
     const std::string name = all.substr(start, all.find('=', start) - start);
-    std::string without = all;
-    without.erase(start, end + 1 - start);
-    if (without.back() == ',') without.pop_back();
+    std::string shortened = all;
+    shortened.erase(start, end + 1 - start);
+    if (shortened.back() == ',') shortened.pop_back();
     size_t at = 0;
-    while (without.size() < all.size()) {
-      at = without.find('=', at + 1);
-      if (at == std::string::npos) at = without.find('=');
-      without.insert(at + 1, 1, '0');
+    while (shortened.size() < all.size()) {
+      at = shortened.find('=', at + 1);
+      if (at == std::string::npos) at = shortened.find('=');
+      shortened.insert(at + 1, 1, '0');
     }
-    expectRefused(withChecksum(replaced(whole, all, without)), name + " is 0");
+    expectRefused(withChecksum(replaced(whole, all, shortened)), name + " is 0");
     start = end + 1;
   }
 }

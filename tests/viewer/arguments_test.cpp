@@ -82,7 +82,7 @@ TEST_F(ViewerArguments, WrongScriptsGetASentenceWithTheLine) {
   refused("choose solver magic", {"magic", "moments, standard"});
   refused("save picture.jpg", {"picture.jpg", ".png", ".exr"});
   refused("seek 3", {"flythrough"});
-  refused("show air", {"air", "Air"});
+  refused("show air", {"air", "Atmosphere"});
   refused("frames 1e12", {"1e+12", "1e+09"});
   refused("set mie.scattering_per_m 1", {"mie.scattering_per_m.0"});
   refused("save /no/such/folder/picture.png", {"/no/such/folder"});

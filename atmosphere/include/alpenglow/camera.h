@@ -5,7 +5,7 @@
 #include <alpenglow/parameters.h>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 /// Where the host's world lies on the planet, given in the planet frame: origin at the planet's
 /// centre, z to the north pole, x to latitude 0, longitude 0; metres, in double. All zero: the
@@ -42,8 +42,8 @@ struct Camera {
   double position[3] = {};
   double forward[3] = {}, up[3] = {};  ///< Unit vectors, orthogonal.
   double fov = 0;  ///< Vertical; 0: 60 degrees. Fisheye: of the full circle; 0: 180 degrees.
-  double tangents[4] =
-      {};                 ///< Off-centre frusta: left, right, down, up. Must be 0 in this version.
+  /// Off-centre frusta: left, right, down, up. Must be 0 in this version.
+  double tangents[4] = {};
   double height = 0;      ///< Orthographic: from the lower to the upper edge of the picture.
   double jitter[2] = {};  ///< In pixels. Must be 0 in this version.
   double nearPlane = 0, farPlane = 0;  ///< Along `forward`; farPlane 0: infinitely far
@@ -53,17 +53,22 @@ struct Camera {
 
 /// Places the world's origin at a point of the planet, axes along the local east, north and up.
 /// Altitude is above the sphere of Parameters::bottomRadius_m. `metersPerUnit` and radii are kept.
-ALPENGLOW_API void placeWorld(const Parameters& planet, double latitude, double longitude,
-                              double altitude_m, WorldAxes axes, World* world);
+/// InvalidArgument, with a sentence, for a latitude beyond the poles (degrees in place of radians)
+/// and for what is not finite; `world` then stays as it was.
+ALPENGLOW_API Status placeWorld(const Parameters& planet, double latitude, double longitude,
+                                double altitude_m, WorldAxes axes, World* world,
+                                const DiagnosticSink& sink);
 
 /// A camera above a point of the planet: heading clockwise from north, pitch above the horizon,
-/// roll clockwise. Fills position, forward and up.
+/// roll clockwise. Fills position, forward and up. Where placeWorld would refuse, or an angle is
+/// not finite, the camera is absent, and beginFrame says so.
 ALPENGLOW_API Camera cameraAt(const Parameters& planet, const World& world, double latitude,
                               double longitude, double altitude_m, double heading, double pitch,
                               double roll);
 
 /// Unit vector in world axes towards something seen at these angles from a point of the planet:
-/// elevation above the horizontal, azimuth clockwise from north.
+/// elevation above the horizontal, azimuth clockwise from north. Zero, which is an absent light,
+/// where cameraAt would give an absent camera.
 ALPENGLOW_API void directionAt(const World& world, double latitude, double longitude,
                                double elevation, double azimuth, double direction[3]);
 
@@ -84,5 +89,5 @@ ALPENGLOW_API Status cameraFromMatrices(const double worldFromView[16],
 /// viewport without area.
 ALPENGLOW_API Status clipFromCamera(Projection projection, DepthConvention depth,
                                     const Camera& camera, float matrix[16]);
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -5,7 +5,7 @@
 #include <alpenglow/types.h>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 /// Opaque. Internally synchronised: functions that take a Context may be called from any thread at
 /// any time, except that host access to the Context must be externally synchronised in
@@ -17,12 +17,12 @@ struct Context;
 enum Capability : uint32_t {
   kCapabilityBake = 1u << 0,  ///< Compute shaders that fill the tables, and probe queries.
   kCapabilitySky = 1u << 1,   ///< Graphics pipelines that draw sky and ground.
-  kCapabilityAerialPerspective = 1u
-                                 << 2,  ///< Aerial perspective over a host's scene: dualSrcBlend.
-  kCapabilityLightShafts = 1u << 3,     ///< Light shafts: depthClamp.
-  kCapabilityShadowVolumes =
-      1u << 4,  ///< LightShaftMethod::ShadowVolume, with kCapabilityLightShafts:
-                ///< geometryShader, shaderClipDistance, independentBlend.
+  /// Aerial perspective over a host's scene: dualSrcBlend.
+  kCapabilityAerialPerspective = 1u << 2,
+  kCapabilityLightShafts = 1u << 3,  ///< Light shafts: depthClamp.
+  /// LightShaftMethod::ShadowVolume, with kCapabilityLightShafts: geometryShader,
+  /// shaderClipDistance, independentBlend.
+  kCapabilityShadowVolumes = 1u << 4,
 };
 using CapabilityFlags = uint32_t;
 
@@ -116,11 +116,11 @@ struct ResourceReport {
   uint64_t peakBytes = 0;
   uint64_t dispatches = 0;
   uint64_t draws = 0;
-  uint64_t lutUpdates = 0,
-           lutsSkipped = 0;  ///< Calls of recordLuts that recorded, that didn't need to.
-  uint64_t shadowMapUpdates = 0, shadowMapsSkipped = 0;  ///< Likewise, of recordShadowMap.
+  /// Calls of recordLuts and recordShadowMap that recorded, and that found nothing to do.
+  uint64_t lutUpdates = 0, lutsSkipped = 0;
+  uint64_t shadowMapUpdates = 0, shadowMapsSkipped = 0;
 };
 ALPENGLOW_API void resourceReport(const Context* context, ResourceReport* out);
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

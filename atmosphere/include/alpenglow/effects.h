@@ -7,7 +7,7 @@
 #include <cstdint>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 enum class Effect : uint32_t {
   Rayleigh,            ///< Air molecules.
@@ -46,5 +46,5 @@ constexpr bool hasEffect(EffectFlags disabledEffects, Effect effect) {
 /// As files spell it: "ground_irradiance". Never null; "" past the end.
 ALPENGLOW_API const char* effectName(Effect effect);
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

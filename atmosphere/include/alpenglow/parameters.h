@@ -5,7 +5,7 @@
 #include <alpenglow/types.h>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 /// Wavelengths baked together: one group fits the colour channels of a texture. The only place
 /// where the number stands (its twin in the shaders is the type Spectrum of physics/types.glsl).
@@ -74,5 +74,5 @@ ALPENGLOW_API Status findPreset(const char* name, Parameters* out, const Diagnos
 /// spell it, the value given and what is allowed. Thread-safe.
 ALPENGLOW_API Status validate(const Parameters& parameters, const DiagnosticSink& sink);
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -6,7 +6,7 @@
 #include <alpenglow/view.h>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 /// Auto: as the plan finds best.
 enum class Force : uint32_t { Auto, On, Off };
@@ -106,5 +106,5 @@ using RecreateFlags = uint32_t;
 ALPENGLOW_API RecreateFlags comparePlans(const Plan& current, const Plan& next,
                                          const DiagnosticSink& sink);
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -5,7 +5,7 @@
 #include <alpenglow/tables.h>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 enum class QueryKind : uint32_t {
   Ray,         ///< Light along a ray of an observer.
@@ -59,5 +59,5 @@ ALPENGLOW_API Status recordProbe(const Tables* tables, VkCommandBuffer commands,
 ALPENGLOW_API Status answerQueries(const Tables* tables, const ProbeQuery* queries, uint32_t count,
                                    const void* deviceAnswers, ProbeAnswer* answers);
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

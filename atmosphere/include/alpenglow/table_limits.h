@@ -4,7 +4,7 @@
 #include <cstdint>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 /// Of TableSizes::degree.
 inline constexpr uint32_t kMaxDegree = 47;
@@ -13,5 +13,5 @@ inline constexpr uint32_t kMaxStepCount = 1024;
 /// Texels across a layer of the table of moments: the nodes, and two between any two of them.
 constexpr uint32_t fieldTexels(uint32_t nodes) { return 3 * (nodes - 1) + 1; }
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

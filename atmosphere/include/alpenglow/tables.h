@@ -7,7 +7,7 @@
 #include <alpenglow/parameters.h>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 /// Opaque. Host access must be externally synchronised while the tables are baked, uploaded or
 /// destroyed. Tables that are ready are only read: any number of threads and views may use them.
@@ -211,5 +211,5 @@ ALPENGLOW_API Status recordTableReadback(Tables* tables, VkCommandBuffer command
 ALPENGLOW_API Status recordTableUpload(Tables* tables, VkCommandBuffer commands, TableId id,
                                        VkBuffer buffer, VkDeviceSize offset);
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

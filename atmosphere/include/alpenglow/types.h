@@ -10,7 +10,7 @@
 #include <cstdint>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 /// Result of every call that can fail. Ok is 0, so `if (status != Status::Ok)` reads naturally.
 enum class Status : int32_t {
@@ -74,19 +74,12 @@ struct ImageInfo {
   VkAccessFlags2 access = VK_ACCESS_2_NONE;
 };
 
-/// Real Vulkan stages, accesses and layouts of an image at one point of a command buffer.
-struct ImageState {
-  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-  VkPipelineStageFlags2 stage = VK_PIPELINE_STAGE_2_NONE;
-  VkAccessFlags2 access = VK_ACCESS_2_NONE;
-};
-
-/// A box of any orientation.
+/// A box of any orientation, in world units and axes.
 struct Box {
   double center[3] = {};
   double halfExtents[3] = {};
-  double axes[3][3] =
-      {};  ///< Orthonormal directions of the three half extents; 0: the frame's axes.
+  /// Orthonormal directions of the three half extents; 0: the world's axes.
+  double axes[3][3] = {};
 };
 
 /// A range of device memory from the host's hook.
@@ -112,5 +105,5 @@ struct MemoryHooks {
   void (*free)(void* user, const MemoryRange& range) = nullptr;
 };
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

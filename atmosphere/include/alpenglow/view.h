@@ -6,7 +6,7 @@
 #include <alpenglow/tables.h>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 /// Opaque. Host access must be externally synchronised, except that recordAerialPerspective and
 /// recordSky of one frame may be called in parallel, with different command buffers, once the other
@@ -91,12 +91,12 @@ struct ViewDesc {
   /// Bits of kViewEffects, besides those that the tables lack: nothing of them is compiled, and a
   /// frame that would show them is refused by beginFrame.
   EffectFlags disabledEffects = 0;
-  double lutTolerance =
-      0.0;  ///< Must be 0 in this version: LUTs are reused only where they are exact.
+  /// Must be 0 in this version: LUTs are reused only where they are exact.
+  double lutTolerance = 0.0;
   uint32_t lutFrames = 0;  ///< Must be 0 or 1 in this version.
-  VkPipelineStageFlags2 readerStages =
-      0;  ///< That read our LUTs and shadow map; 0: compute and
-          ///< fragment. Always includes what the view itself needs.
+  /// That read our LUTs and shadow map; 0: compute and fragment. Always includes what the view
+  /// itself needs.
+  VkPipelineStageFlags2 readerStages = 0;
 };
 
 /// Derives solver, effects and the LUTs' shapes from `tables`, which need not be baked, and makes
@@ -113,8 +113,8 @@ struct LightMap;
 
 /// One light of a frame; of TableDesc::lights at the same index.
 struct Light {
-  double direction[3] =
-      {};  ///< Unit, world axes, towards the light. Zero: absent. Light 0 is required.
+  /// Unit, world axes, towards the light. Zero: absent. Light 0 is required.
+  double direction[3] = {};
   double discRadius = 0.0;  ///< Angular, radians; 0 draws no disc.
   double dimming = 0.0;     ///< Share of its light that is taken away, 0 to 1: an eclipse, a fade.
   double litFrom[3] = {};   ///< Must be 0 in this version, as the next two.
@@ -151,8 +151,8 @@ struct FrameDesc {
   World world;
   Camera cameras[kMaxCameras];  ///< Camera 0; the others must be absent in this version.
   Light lights[kMaxLights];     ///< Light 0; likewise.
-  double radianceScale =
-      0.0;  ///< Factor on all radiance, so that night survives half floats; 0: 1.
+  /// Factor on all radiance, so that night survives half floats; 0: 1.
+  double radianceScale = 0.0;
   /// The host's opaque scene, for aerial perspective and light shafts: a view of the depth aspect,
   /// one sample a pixel, usage SAMPLED and DEPTH_STENCIL_ATTACHMENT; layout 0:
   /// DEPTH_STENCIL_READ_ONLY_OPTIMAL. Its writes are visible to fragment shader reads and early
@@ -253,5 +253,5 @@ struct ViewInfo {
 };
 ALPENGLOW_API Status viewInfo(const View* view, ViewInfo* out);
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -51,10 +51,10 @@ class LightShaftConventionsTest : public ShadowCheckTest {
   /// Light that a picture lacks beside one without shafts, in all.
   double shade(LightShaftSetup setup, const FrameState& d, const LightShaftPicture& picture) {
     setup.shafts = false;
-    const LightShaftPicture without = draw(setup, d);
+    const LightShaftPicture unshadowed = draw(setup, d);
     double sum = 0.0;
-    for (size_t i = 1; i < without.light.data.size(); i += 4)
-      sum += double(without.light.data[i]) - picture.light.data[i];
+    for (size_t i = 1; i < unshadowed.light.data.size(); i += 4)
+      sum += double(unshadowed.light.data[i]) - picture.light.data[i];
     return sum;
   }
 };
@@ -156,8 +156,8 @@ TEST_F(LightShaftConventionsTest, OrthographicLengthsAreThoseOfTheReference) {
   d.depth = {0.5, 1e5};
   LightShaftSetup setup;
   setup.projection = Projection::Orthographic;
-  LightShaftPicture with, without;
-  const std::vector<double> loss = losses(setup, d, &with, &without);
+  LightShaftPicture with, unshadowed;
+  const std::vector<double> loss = losses(setup, d, &with, &unshadowed);
   int shadowed = 0, wrong = 0;
   for (uint32_t y = 0; y < kExtent.height; ++y) {
     for (uint32_t x = y % 2; x < kExtent.width; x += 2) {

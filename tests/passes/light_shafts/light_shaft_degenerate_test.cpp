@@ -22,12 +22,12 @@ class LightShaftDegenerateTest : public ShadowCheckTest {
       LightShaftSetup setup;
       setup.method = method;
       setup.shadowMapSize = 256;
-      LightShaftPicture with, without;
-      losses(setup, d, &with, &without);
+      LightShaftPicture with, unshadowed;
+      losses(setup, d, &with, &unshadowed);
       EXPECT_EQ(badValue(with.light), "");
       int brighter = 0;
       for (size_t i = 0; i < with.light.data.size(); ++i)
-        brighter += with.light.data[i] > without.light.data[i] * 1.00001f + 1e-7f ? 1 : 0;
+        brighter += with.light.data[i] > unshadowed.light.data[i] * 1.00001f + 1e-7f ? 1 : 0;
       EXPECT_EQ(brighter, 0);
       if (method == LightShaftMethod::LightVolume) expectCounts(with);
       if (method == LightShaftMethod::ShadowVolume && closed) {
@@ -104,9 +104,9 @@ TEST_F(LightShaftDegenerateTest, ASheetHasNoThickness) {
   const FrameState d = stage(over({sheet}, 40, 180));
   LightShaftSetup setup;
   setup.shadowMapSize = 256;
-  LightShaftPicture with, without;
+  LightShaftPicture with, unshadowed;
   double sum = 0.0;
-  for (const double loss : losses(setup, d, &with, &without)) sum += loss;
+  for (const double loss : losses(setup, d, &with, &unshadowed)) sum += loss;
   EXPECT_GT(sum, 1e-3);
 }
 
@@ -120,8 +120,8 @@ TEST_F(LightShaftDegenerateTest, NothingCastsNoShadow) {
     setup.method = method;
     setup.shadowMapSize = 256;
     setup.hostDepth = false;
-    LightShaftPicture with, without;
-    for (const double loss : losses(setup, d, &with, &without)) EXPECT_EQ(loss, 0.0);
+    LightShaftPicture with, unshadowed;
+    for (const double loss : losses(setup, d, &with, &unshadowed)) EXPECT_EQ(loss, 0.0);
   }
 }
 

@@ -137,9 +137,9 @@ TEST_F(LightShaftErrorsTest, AnotherContextIsRefused) {
   destroyTables(own);
   destroyContext(other);
 
-  ContextDesc without = contextDesc();
-  without.capabilities = kCapabilityBake | kCapabilitySky | kCapabilityAerialPerspective;
-  ASSERT_EQ(createContext(without, &other), Status::Ok);
+  ContextDesc reduced = contextDesc();
+  reduced.capabilities = kCapabilityBake | kCapabilitySky | kCapabilityAerialPerspective;
+  ASSERT_EQ(createContext(reduced, &other), Status::Ok);
   ASSERT_EQ(createTables(other, parameters, draft, &own), Status::Ok);
   EXPECT_EQ(createView(other, own, goodDesc(), &made), Status::Unsupported);
   EXPECT_TRUE(hasAll(lastDiagnostic(), "lightShafts|kCapabilityLightShafts")) << lastDiagnostic();
@@ -205,6 +205,37 @@ TEST_F(LightShaftErrorsTest, BadCallsRecordNothing) {
   EXPECT_EQ(end.dispatches, start.dispatches);
   const LightShaftPicture after = draw(setup_, draw_);
   EXPECT_EQ(after.light.data, before.light.data);
+}
+
+// A planet-centred position where the world's is meant; said once by the view.
+TEST_F(LightShaftErrorsTest, CastersFarOutsideTheirBoundsAreWarnedOf) {
+  LightShaftRig& rig = rigOf(setup_, kExtent);
+  View* view = nullptr;
+  ASSERT_EQ(createView(context(), baked, goodDesc(), &view), Status::Ok) << message();
+  FrameDesc frame = frameOf(rig, draw_);
+  struct Place {
+    double origin[3];
+  } near = {}, far = {};
+  std::copy_n(frame.casters.bounds.center, 3, near.origin);
+  far.origin[0] = -frame.casters.bounds.center[0];
+  frame.casters.draw = [](void* user, VkCommandBuffer commands, const CasterPass& pass) {
+    placeCaster(pass, commands, static_cast<Place*>(user)->origin, nullptr);
+  };
+  const auto drawMap = [&](Place* place) {
+    frame.casters.user = place;
+    message().clear();
+    EXPECT_EQ(beginFrame(view, frame, nullptr), Status::Ok) << message();
+    run([&](VkCommandBuffer c) {
+      EXPECT_EQ(recordShadowMap(view, c), Status::Ok) << message();
+      return true;
+    });
+    return message();
+  };
+  EXPECT_EQ(drawMap(&near), "");
+  const std::string said = drawMap(&far);
+  EXPECT_TRUE(hasAll(said, "placeCaster|Casters::bounds|world units")) << said;
+  EXPECT_EQ(drawMap(&far), "");
+  destroyView(view);
 }
 
 // Each function wants what the frame's earlier ones record.
@@ -280,22 +311,22 @@ TEST_F(LightShaftErrorsTest, OnlyShadowVolumesNeedGeometryShaders) {
 
   ContextDesc desc = contextDesc();
   desc.capabilities = kCapabilitySky | kCapabilityAerialPerspective | kCapabilityLightShafts;
-  Context* without = nullptr;
-  ASSERT_EQ(createContext(desc, &without), Status::Ok);
+  Context* reduced = nullptr;
+  ASSERT_EQ(createContext(desc, &reduced), Status::Ok);
   TableDesc draft;
   draft.quality = Quality::Draft;
   Tables* own = nullptr;
-  ASSERT_EQ(createTables(without, parameters, draft, &own), Status::Ok) << lastDiagnostic();
+  ASSERT_EQ(createTables(reduced, parameters, draft, &own), Status::Ok) << lastDiagnostic();
   ViewDesc view = goodDesc();
   View* made = nullptr;
-  EXPECT_EQ(createView(without, own, view, &made), Status::Ok) << lastDiagnostic();
+  EXPECT_EQ(createView(reduced, own, view, &made), Status::Ok) << lastDiagnostic();
   destroyView(made);
   view.lightShafts.method = LightShaftMethod::ShadowVolume;
-  EXPECT_EQ(createView(without, own, view, &made), Status::Unsupported);
+  EXPECT_EQ(createView(reduced, own, view, &made), Status::Unsupported);
   EXPECT_TRUE(hasAll(lastDiagnostic(), "ShadowVolume|kCapabilityShadowVolumes"))
       << lastDiagnostic();
   destroyTables(own);
-  destroyContext(without);
+  destroyContext(reduced);
 }
 
 /// What a view with shafts has beyond one without: made by createView, and by the first frame.
@@ -360,13 +391,13 @@ TEST_F(LightShaftErrorsTest, DisabledAerialPerspectiveCreatesNothing) {
     return end.pipelines - start.pipelines;
   };
   uint64_t images = 0, aerialPerspectiveImages = 0, integratedImages = 0;
-  const uint64_t without = pipelinesOf(AerialPerspective::Off, &images);
+  const uint64_t reduced = pipelinesOf(AerialPerspective::Off, &images);
   const uint64_t with = pipelinesOf(AerialPerspective::On, &aerialPerspectiveImages);
   const uint64_t integrated = pipelinesOf(AerialPerspective::Integrate, &integratedImages);
   // Air from its LUT, and the LUT's own; or by integration.
-  EXPECT_EQ(with, without + 2);
+  EXPECT_EQ(with, reduced + 2);
   EXPECT_EQ(aerialPerspectiveImages, images + 3);
-  EXPECT_EQ(integrated, without + 1);
+  EXPECT_EQ(integrated, reduced + 1);
   EXPECT_EQ(integratedImages, images);
 }
 

@@ -39,8 +39,8 @@ void LightVolumeTest::expectLengths(const ShadowScene& scene) {
   LightShaftSetup setup;
   setup.fromLut = false;
   setup.shadowMapSize = 256;
-  LightShaftPicture with, without;
-  const std::vector<double> loss = losses(setup, d, &with, &without);
+  LightShaftPicture with, unshadowed;
+  const std::vector<double> loss = losses(setup, d, &with, &unshadowed);
   EXPECT_EQ(badValue(with.light), "");
   expectCounts(scene.name, d, with);
   const double texel_m = texel(setup, d);
@@ -91,8 +91,8 @@ void LightVolumeTest::expectRadiance(const ShadowScene& scene, bool fromLut) {
   LightShaftSetup setup;
   setup.fromLut = fromLut;
   setup.shadowMapSize = 256;
-  LightShaftPicture with, without;
-  const std::vector<double> loss = losses(setup, d, &with, &without);
+  LightShaftPicture with, unshadowed;
+  const std::vector<double> loss = losses(setup, d, &with, &unshadowed);
   EXPECT_EQ(badValue(with.light), "");
   expectCounts(scene.name, d, with);
   const auto medium = makeMediumF64(parameters);
@@ -102,7 +102,7 @@ void LightVolumeTest::expectRadiance(const ShadowScene& scene, bool fromLut) {
   for (uint32_t y = 1; y < kExtent.height; y += 4) {
     for (uint32_t x = 1; x < kExtent.width; x += 4) {
       const ShadowBand b = band(setup, d, x, y, kTexels * texel_m);
-      const double total = without.light.at(x, y)[1];
+      const double total = unshadowed.light.at(x, y)[1];
       const double got = loss[size_t{y} * kExtent.width + x];
       if (b.atEdge || b.most.empty()) {
         EXPECT_TRUE(b.atEdge || std::abs(got) < 1e-3 * total) << x << ", " << y << ": " << got;

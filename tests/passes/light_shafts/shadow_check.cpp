@@ -164,14 +164,15 @@ std::optional<bool> ShadowCheckTest::surfaceInShadow(const ShadowBand& band, dou
 }
 
 std::vector<double> ShadowCheckTest::losses(LightShaftSetup setup, const FrameState& d,
-                                            LightShaftPicture* with, LightShaftPicture* without) {
+                                            LightShaftPicture* with,
+                                            LightShaftPicture* unshadowed) {
   setup.shafts = true;
   *with = draw(setup, d);
   setup.shafts = false;
-  *without = draw(setup, d);
+  *unshadowed = draw(setup, d);
   std::vector<double> losses;
   for (size_t i = 1; i < with->light.data.size(); i += 4)
-    losses.push_back(double(without->light.data[i]) - with->light.data[i]);
+    losses.push_back(double(unshadowed->light.data[i]) - with->light.data[i]);
   return losses;
 }
 

@@ -52,7 +52,7 @@ class ShadowCheckTest : public LightShaftTest {
   std::optional<bool> surfaceInShadow(const ShadowBand& band, double slack);
   /// Light that shadows keep from each pixel, channel 1.
   std::vector<double> losses(LightShaftSetup setup, const FrameState& draw, LightShaftPicture* with,
-                             LightShaftPicture* without);
+                             LightShaftPicture* unshadowed);
 };
 
 }  // namespace alpenglow::testing

@@ -21,9 +21,9 @@ FrameState towardsSun(const Parameters& parameters, double altitude, double elev
 }
 
 /// The disc alone: the picture less the same without a disc.
-Picture discOnly(const Picture& with, const Picture& without) {
+Picture discOnly(const Picture& with, const Picture& discless) {
   Picture disc = with;
-  for (size_t i = 0; i < disc.data.size(); ++i) disc.data[i] -= without.data[i];
+  for (size_t i = 0; i < disc.data.size(); ++i) disc.data[i] -= discless.data[i];
   return disc;
 }
 
@@ -126,8 +126,8 @@ TEST_F(SkyTest, NoDiscBehindTheGround) {
     FrameState draw = towardsSun(earth, altitude, -dip - radians(0.4), radians(3.0), {32, 32});
     const Picture with = picture(draw);
     draw.sun.discRadius = 0.0;
-    const Picture without = picture(draw);
-    EXPECT_EQ(with.data, without.data) << altitude;
+    const Picture discless = picture(draw);
+    EXPECT_EQ(with.data, discless.data) << altitude;
   }
   // Half set: the upper half of the disc is there, the lower is not.
   FrameState draw = towardsSun(earth, 1e4, -horizonDip(earth, 1e4), radians(1.0), {32, 32});

@@ -182,12 +182,12 @@ TEST_F(FrameTest, WorldsShowWhatThePlanetFrameShows) {
       for (const WorldAxes axes : {WorldAxes::EarthCentered, WorldAxes::ZUp, WorldAxes::YUp,
                                    WorldAxes::ZUpLeftHanded, WorldAxes::YUpLeftHanded}) {
         World world;
-        placeWorld(earth, 0.79, -1.12, 30.0, axes, &world);
+        ASSERT_EQ(placeWorld(earth, 0.79, -1.12, 30.0, axes, &world, {}), Status::Ok);
         expectSame(pictureOf(drawn, descIn(world, altitude)), wanted, "in a world");
       }
       // A floating origin: the world follows the camera, which stays at 0.
       World world;
-      placeWorld(earth, 0.79, -1.12, 30.0, WorldAxes::YUp, &world);
+      ASSERT_EQ(placeWorld(earth, 0.79, -1.12, 30.0, WorldAxes::YUp, &world, {}), Status::Ok);
       const FrameDesc fixed = descIn(world, altitude);
       for (int k = 0; k < 3; ++k)
         for (int i = 0; i < 3; ++i)
@@ -198,7 +198,7 @@ TEST_F(FrameTest, WorldsShowWhatThePlanetFrameShows) {
     }
   }
   World skewed;
-  placeWorld(earth, kLatitude, kLongitude, 0.0, WorldAxes::YUp, &skewed);
+  ASSERT_EQ(placeWorld(earth, kLatitude, kLongitude, 0.0, WorldAxes::YUp, &skewed, {}), Status::Ok);
   FrameDesc bad = descIn(skewed, 2.0);
   bad.world.axes[1][0] += 0.1;
   EXPECT_EQ(beginFrame(view(), bad, nullptr), Status::InvalidArgument);

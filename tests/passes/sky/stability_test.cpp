@@ -171,7 +171,7 @@ TEST_P(StabilityTest, HorizonIsOneCleanLine) {
       const double dip = horizonDip(earth, altitude);
       FrameState draw = makeDraw(cameraFromGeodetic(earth, 0.0, 0.0, altitude, 0.0, -dip, 0.0, fov),
                                  sunAt(0.1 - dip, 0.0), {24, 64});
-      const Picture without = picture(draw);
+      const Picture discless = picture(draw);
       draw.sun.discRadius = radians(60.0);
       const Picture with = picture(draw);
       const Vec down = {-1.0, 0.0, 0.0};
@@ -180,7 +180,7 @@ TEST_P(StabilityTest, HorizonIsOneCleanLine) {
         double expected = 0.0;
         for (uint32_t y = 0; y < with.height; ++y) {
           const auto isSky = [&](uint32_t row) {
-            return with.at(x, row)[0] > without.at(x, row)[0];
+            return with.at(x, row)[0] > discless.at(x, row)[0];
           };
           crossings += y > 0 && isSky(y) != isSky(y - 1) ? 1 : 0;
           // The float vector of a pixel's direction is 1e-7 off, a tenth of these rows at most.

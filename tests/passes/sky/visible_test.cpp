@@ -32,7 +32,7 @@ passes::Visible bruteForce(const Parameters& parameters, const PictureDesc& desc
       const auto angle = [&](const Vec& to) {
         return std::atan2(length(cross(*direction, to)), dot(*direction, to));
       };
-      seen.air = seen.air || angle(down) <= air;
+      seen.atmosphere = seen.atmosphere || angle(down) <= air;
       seen.ground = seen.ground || angle(down) < planet;
       const double chord = 2.0 * std::sin(0.5 * angle(sun));
       seen.disc = seen.disc || (draw.sun.discRadius > 0.0 && chord < reach);
@@ -42,7 +42,8 @@ passes::Visible bruteForce(const Parameters& parameters, const PictureDesc& desc
 }
 
 bool covers(const passes::Visible& said, const passes::Visible& seen) {
-  return (said.air || !seen.air) && (said.ground || !seen.ground) && (said.disc || !seen.disc);
+  return (said.atmosphere || !seen.atmosphere) && (said.ground || !seen.ground) &&
+         (said.disc || !seen.disc);
 }
 
 /// Cameras of all kinds, the same ones in each run.
@@ -105,9 +106,9 @@ TEST(VisibleTest, IsConservativeAndUseful) {
     const passes::Visible seen = bruteForce(earth, desc, draw, area);
     const passes::Visible said = passes::visible(earth, desc, draw, area);
     EXPECT_TRUE(covers(said, seen)) << "camera " << i;
-    EXPECT_TRUE(said.air || !said.ground) << "camera " << i;
-    const bool saw[] = {seen.air, seen.ground, seen.disc};
-    const bool says[] = {said.air, said.ground, said.disc};
+    EXPECT_TRUE(said.atmosphere || !said.ground) << "camera " << i;
+    const bool saw[] = {seen.atmosphere, seen.ground, seen.disc};
+    const bool says[] = {said.atmosphere, said.ground, said.disc};
     for (int k = 0; k < 3; ++k) {
       unseen[k] += saw[k] ? 0 : 1;
       culled[k] += says[k] ? 0 : 1;

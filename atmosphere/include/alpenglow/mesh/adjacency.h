@@ -5,7 +5,7 @@
 #include <alpenglow/types.h>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 /// Triangles over the host's own vertices, which are read where they lie.
 struct MeshView {
@@ -54,5 +54,5 @@ struct AdjacencyReport {
 ALPENGLOW_API Status buildAdjacency(const MeshView& mesh, uint32_t* adjacency,
                                     AdjacencyReport* report, const DiagnosticSink& sink);
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -5,7 +5,7 @@
 #include <alpenglow/mesh/adjacency.h>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 /// Heights at the points of a grid, row by row: row 0 is the north edge, column 0 the west edge.
 struct HeightField {
@@ -38,8 +38,8 @@ struct TerrainDesc {
 };
 
 struct TerrainVertex {
-  float position[3] =
-      {};  ///< Metres from TerrainPlace::origin_m, axes parallel to the planet's frame.
+  /// Metres from TerrainPlace::origin_m, axes parallel to the planet's frame.
+  float position[3] = {};
   float normal[3] = {};  ///< Unit, outwards.
   /// From 0 to 1 over an image of the field: column c, row r is ((c + 1/2) / width,
   /// (r + 1/2) / height), the middle of its texel in an image of the field's size.
@@ -84,5 +84,5 @@ ALPENGLOW_API Status buildTerrain(const TerrainDesc& desc, TerrainVertex* vertic
                                   uint32_t* indices, TerrainPlace* place,
                                   const DiagnosticSink& sink);
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

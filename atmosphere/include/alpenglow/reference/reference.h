@@ -7,7 +7,7 @@
 #include <alpenglow/query.h>
 
 namespace alpenglow {
-inline namespace v1 {
+inline namespace v1_0 {
 
 /// An answer with the error of each value: of the path tracer's part the standard error, of what
 /// was integrated exactly the quadrature's own estimate.
@@ -69,5 +69,5 @@ ALPENGLOW_API Status evaluateReference(const Parameters& parameters, const Probe
 /// else at the observer. 0 for a query that would be refused.
 ALPENGLOW_API double bandSunElevation(const Parameters& parameters, const ProbeQuery& query);
 
-}  // namespace v1
+}  // namespace v1_0
 }  // namespace alpenglow

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <alpenglow/headless.h>
+#include <alpenglow/headless_states.h>
 
 #include <memory>
 #include <string>
