@@ -9,6 +9,7 @@ namespace alpenglow::view {
 namespace {
 
 using samples::Gpu;
+using samples::ImageState;
 
 constexpr VkExtent2D kSmall = {96, 54};
 constexpr VkImageUsageFlags kCopied =
