@@ -18,7 +18,7 @@ Status checkCasters(const engine::Device& device, const CasterSet& casters);
 class LightShaftPass {
  public:
   explicit LightShaftPass(tables::Resources& resources)
-      : resources_(resources), device_(resources.device()), map_(resources) {}
+      : resources_(resources), device_(resources.device()), map_(device_) {}
   LightShaftPass(const LightShaftPass&) = delete;
   LightShaftPass& operator=(const LightShaftPass&) = delete;
   /// The settings have been completed and checked. `stages`: of the host's shaders that bind the

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/barriers.h"
+#include "engine/pipeline.h"
 #include "engine/structure.h"
 
 namespace alpenglow::passes {

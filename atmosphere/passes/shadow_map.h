@@ -2,7 +2,6 @@
 #pragma once
 
 #include "atmosphere/passes/caster_pass.h"
-#include "atmosphere/tables/resources.h"
 #include "engine/memory.h"
 
 namespace alpenglow::passes {
@@ -12,8 +11,7 @@ inline constexpr VkFormat kShadowMapFormat = VK_FORMAT_D32_SFLOAT;
 /// Owned by LightShaftPass; externally synchronised.
 class ShadowMap {
  public:
-  explicit ShadowMap(tables::Resources& resources)
-      : resources_(resources), device_(resources.device()) {}
+  explicit ShadowMap(engine::Device& device) : device_(device) {}
   Status make(const LightShaftSettings& desc);
   void destroy(uint64_t frame);
 
@@ -38,7 +36,6 @@ class ShadowMap {
   Status makeImage();
   Status makePipeline(const LightShaftSettings& desc);
 
-  tables::Resources& resources_;
   engine::Device& device_;
   uint32_t size_ = 0;
   LightShaftMethod method_ = LightShaftMethod::Off;
