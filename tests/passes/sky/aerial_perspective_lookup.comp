@@ -55,7 +55,7 @@ void main() {
   answers[i].singleAlone = vec4(alpenglowAerialSingle(aerialRay, distance_), 0.0);
   PathLight path =
       integrateInscattering(alpenglowMedium, alpenglowShape, ray, alpenglowInside(ray, distance_),
-                  4 * int(alpenglowShape.viewPanels), true, true);
+                            4 * int(alpenglowShape.viewPanels), true, true);
   bool any_ = ray.inAtmosphere;
   Spectrum single = path.rayleigh * rayleighPhase(ray.nu) +
                     path.mie * miePhase(alpenglowMedium.mieAsymmetry, ray.nu);
