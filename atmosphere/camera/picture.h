@@ -1,5 +1,5 @@
-// A picture and a frame as the passes see them: resolved, in the planet frame, in metres. The View
-// makes them of what the host states.
+// A picture and a frame as the passes use them: resolved, in the planet frame, in metres. View
+// makes them from ViewDesc and FrameDesc.
 #pragma once
 
 #include <alpenglow/view.h>
@@ -83,7 +83,7 @@ struct CasterSet {
 EyeCamera cameraFromGeodetic(const Parameters& parameters, double latitude, double longitude,
                              double altitude_m, double heading, double pitch, double roll,
                              double fov);
-/// Towards a sun seen at these angles about the local vertical.
+/// Unit vector towards a sun at these angles about the local vertical.
 void sunDirection(double latitude, double longitude, double elevation, double azimuth,
                   double direction[3]);
 

@@ -8,10 +8,10 @@
 
 namespace alpenglow::passes {
 
-/// How a camera's rays lie in an aerial-perspective LUT.
+/// The mapping of a camera's rays to an aerial-perspective LUT.
 physics_f64::AerialView aerialView(const Parameters& parameters, double altitude);
 
-/// What shaders/glsl/common/aerial_perspective_lut.glsl wants to know of a draw.
+/// Inputs of shaders/glsl/common/aerial_perspective_lut.glsl for a draw.
 struct AerialPerspectiveLookup {
   physics_f64::AerialView view;
   double up[3];          ///< The camera's vertical.
@@ -32,7 +32,7 @@ class AerialPerspectiveLut {
   /// Of each of its images, for a view without these effects.
   static VkExtent3D extentFor(EffectFlags disabledEffects);
 
-  /// Whether it holds what this draw looks into.
+  /// Whether it is up to date for this draw.
   bool current(const Tables& tables, const FrameState& draw) const;
   Status record(VkCommandBuffer commands, const Tables& tables, const FrameState& draw);
   Lut& lut() { return lut_; }

@@ -1,5 +1,5 @@
-// What the LUTs of a view share: images that one dispatch fills from the tables, and the memory of
-// what they were filled for.
+// What the LUTs of a view share: images that one dispatch fills from the tables, and the inputs
+// that they were filled for.
 #pragma once
 
 #include "atmosphere/tables/table_set.h"
@@ -39,7 +39,7 @@ class Lut {
   /// Fills the images unless they are current, and leaves them readable.
   Status record(VkCommandBuffer commands, const Tables& tables, const void* constants,
                 uint32_t groupsX, uint32_t groupsY);
-  /// What was recorded in that frame never executes.
+  /// Commands of that frame never execute.
   void abandon(uint64_t frame);
 
   const engine::Image& image(uint32_t i) const { return images_[i < count_ ? i : count_ - 1]; }

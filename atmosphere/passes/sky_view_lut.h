@@ -1,5 +1,5 @@
-// The sky-view LUT: what the camera of a frame looks into, for all its rays; light along rays
-// (Moments), or S at its altitude (Standard). After Hillaire 2020.
+// The sky-view LUT of a frame's camera, for all its rays: light along rays (Moments), or S at its
+// altitude (Standard). After Hillaire 2020.
 #pragma once
 
 #include "atmosphere/camera/camera_math.h"
@@ -11,7 +11,7 @@ namespace alpenglow::passes {
 class SkyViewLut {
  public:
   explicit SkyViewLut(tables::Resources& resources) : lut_(resources) {}
-  /// For tables of this completed description, and a view without these effects.
+  /// For tables of this completed description, and a view with these disabled effects.
   Status make(const TableDesc& desc, EffectFlags disabledEffects, VkPipelineStageFlags2 readers);
   void destroy(uint64_t frame) { lut_.destroy(frame); }
   bool made() const { return lut_.made(); }
@@ -22,7 +22,7 @@ class SkyViewLut {
   /// Whether there is one for the draw's camera: Moments always, else inside the atmosphere.
   static bool possible(const Tables& tables, const FrameState& draw);
 
-  /// Whether it holds what this draw looks into.
+  /// Whether it is up to date for this draw.
   bool current(const Tables& tables, const FrameState& draw) const;
   Status record(VkCommandBuffer commands, const Tables& tables, const FrameState& draw);
   Lut& lut() { return lut_; }
