@@ -34,8 +34,8 @@ constexpr bool drawn(EffectFlags disabledEffects, const Visible& v) {
          (!v.disc || hasEffect(disabledEffects, Effect::SunDisc));
 }
 
-/// Of a viewport's pixels, counted from its corner. Conservative, from the cones around them, the
-/// planet, the atmosphere and the sun.
+/// What an area of the viewport may show; `area` counts from the viewport's corner. Conservative,
+/// from cones around its rays, the planet, the atmosphere and the sun.
 Visible visible(const Parameters& parameters, const PictureDesc& desc, const FrameState& draw,
                 const VkRect2D& area);
 
@@ -54,7 +54,7 @@ struct ViewportPartition {
 ViewportPartition cut(const Parameters& parameters, const PictureDesc& desc,
                       const FrameState& draw);
 
-/// To the right of where a camera looks.
+/// The camera's unit vector to the right.
 std::array<double, 3> cameraRight(const EyeCamera& camera);
 
 /// Width and height, and the lesser of them, in pixels.

@@ -32,7 +32,7 @@ TableSizes momentSizes(const Parameters& parameters, Quality quality, const Tabl
 /// atmosphere needs before the rest is a geometric series.
 uint32_t solvedOrders(const Parameters& parameters, const TableDesc& desc);
 
-/// Layers of the table of moments: momentShape's `layers`. E is the last, if anything wants it.
+/// Layers of the table of moments: MomentShape::layers. E is the last, if it is needed.
 inline uint32_t fieldLayers(const TableDesc& desc) {
   constexpr EffectFlags kGround =
       effectBit(Effect::GroundReflection) | effectBit(Effect::GroundIrradiance);

@@ -18,7 +18,7 @@ namespace alpenglow::tables {
 /// The description with its zeros replaced by defaults, for parameters as simulated: what
 /// resolveTableDesc does after its checks.
 TableDesc completed(const Parameters& parameters, const TableDesc& desc);
-/// The parameters less what is not simulated.
+/// The parameters without disabled effects.
 Parameters simulated(const Parameters& parameters, EffectFlags disabled);
 /// Ok, or a sentence when a size of a completed description is out of range on this device.
 Status checkDeviceLimits(const engine::Device& device, const TableDesc& desc);
@@ -97,7 +97,7 @@ struct Tables : public engine::FrameObject {
   Status finish(VkCommandBuffer commands);
   Status recordHostCopies(VkCommandBuffer commands);
   void releaseScratch();
-  /// Before anything is recorded: keeps what frameAbandoned() goes back to.
+  /// Before anything is recorded: saves the state that frameAbandoned() restores.
   Status noteFrame();
 
   tables::Resources& resources_;
