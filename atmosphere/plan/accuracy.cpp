@@ -127,7 +127,7 @@ void describeDepths(Plan* plan) {
 void describeAltitude(const Parameters& parameters, Plan* plan) {
   parameters::Sentence value, why;
   value << "0 to " << parameters.topRadius_m - parameters.bottomRadius_m << " m";
-  why << "Light on a ray comes from air of every height, so tables hold all of it.";
+  why << "Light on a ray comes from all altitudes, so tables hold all of them.";
   addChoice(plan, "altitude", value, why);
 }
 
@@ -147,7 +147,7 @@ void describeOrders(uint32_t solved, Plan* plan) {
     why << "The default of the solver standard.";
   } else {
     value << "all";
-    why << "In air of this depth " << solved
+    why << "In a medium of this depth " << solved
         << " orders are solved one by one; what follows is a geometric series.";
   }
   addChoice(plan, "orders", value, why);

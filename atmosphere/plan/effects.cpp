@@ -193,7 +193,7 @@ class Decider {
     if (!request_.casters) {
       why << "Nothing casts shadows.";
     } else if (lit) {
-      why << "Casters stand in air that the sun lights from up to " << degrees(range_.to)
+      why << "Casters stand in a medium that the sun lights from up to " << degrees(range_.to)
           << " degrees.";
     } else {
       why << "The sun stays below " << degrees(lowest)

@@ -151,7 +151,7 @@ int parseAndRun(int argc, char** argv) {
   return 0;
 }
 
-// Names and ids from outside may hold anything; a sentence is one line all the same.
+// Names and ids from outside may hold line breaks; a sentence is one line.
 void say(std::string sentence) {
   for (char& c : sentence) {
     if (static_cast<unsigned char>(c) < ' ' || c == '\x7F') c = '?';

@@ -90,7 +90,7 @@ void showPicture(State* state, const PanelFacts& facts) {
 
 void showMethod(State* state, const PanelFacts& facts) {
   combo(state, "model", "model");
-  if (!io::solverOf(state->scene.model)) {  // The simpler models have nothing of these.
+  if (!io::solverOf(state->scene.model)) {  // The simpler models have none of these.
     combo(state, "solver", "solver");
     if (state->scene.solver != Solver::Standard) combo(state, "quality", "quality");
     combo(state, "orders", "orders");
@@ -100,7 +100,7 @@ void showMethod(State* state, const PanelFacts& facts) {
   const Plan& plan = facts.baked->plan;
   const char* limit = modelLimit(plan.tables.solver);
   if (limit[0] != '\0') ImGui::TextWrapped("%s", limit);
-  // Of all orders: what is left out of choice is no error of the tables.
+  // With all orders: orders left out by choice are no error of the tables.
   if (plan.expectedError > 0.0 && !state->scene.orders) {
     ImGui::Text("error expected: up to %.2f %%", 100.0 * plan.expectedError);
     hint(
