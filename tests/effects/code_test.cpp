@@ -1,5 +1,5 @@
-// The compiled text of what is off is gone once its specialization constants are set: no branch and
-// no choice is left of it, and no instruction.
+// Once specialization constants are set, the compiled code of disabled effects is gone: no branch,
+// no selection and no instruction of it is left.
 #include <alpenglow/shaders/aerial_perspective_fragment.h>
 #include <alpenglow/shaders/aerial_perspective_fragment_lut.h>
 #include <alpenglow/shaders/aerial_perspective_lut_float.h>

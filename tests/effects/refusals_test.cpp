@@ -1,4 +1,4 @@
-// What is left out is refused in a sentence, and nothing is recorded of it.
+// Frames that need disabled effects are refused with a sentence, and record nothing.
 #include "tests/passes/light_shafts/light_shaft_fixture.h"
 
 namespace alpenglow::testing {

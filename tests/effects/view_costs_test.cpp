@@ -1,4 +1,4 @@
-// What views are without is made by nobody: pipelines, images and memory, and a frame's dispatches
+// Disabled effects of views create nothing: pipelines, images and memory, and a frame's dispatches
 // and draws.
 #include "atmosphere/passes/view_cost.h"
 #include "atmosphere/tables/table_set.h"

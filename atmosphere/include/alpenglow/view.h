@@ -101,7 +101,8 @@ struct ViewDesc {
 
 /// Derives solver, effects and the LUTs' shapes from `tables`, which need not be baked, and makes
 /// images and pipelines: the slow part. Any thread. The view survives resizes, and draws with other
-/// tables of the same solver, quality, storage and effects. Moments: of any quality.
+/// tables of the same solver, MieStorage and effects, of any quality and size (Solver::Standard
+/// with a sky-view LUT: of the same scatteringMu and scatteringNu).
 ALPENGLOW_API Status createView(Context* context, const Tables* tables, const ViewDesc& desc,
                                 View** out);
 

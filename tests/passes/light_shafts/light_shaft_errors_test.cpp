@@ -356,7 +356,7 @@ TEST_F(LightShaftErrorsTest, UnusedMethodsCreateNothing) {
   const Added off = madeBy(LightShaftMethod::Off);
   EXPECT_EQ(off.buffers, 0u);
   EXPECT_EQ(off.frameImages, 0u);
-  // The map, blocks, the surface with and without a LUT; sums.
+  // Shadow map, blocks, light-volume mesh with and without a LUT; sums.
   const Added exact = madeBy(LightShaftMethod::LightVolume);
   EXPECT_EQ(exact.pipelines - off.pipelines, 4u);
   EXPECT_EQ(exact.images - off.images, 1u);

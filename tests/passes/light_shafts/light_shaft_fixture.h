@@ -1,5 +1,5 @@
-// A small host with casters: draws them into its depth image, and the library's shadows, air and
-// sky; and the same rays for the reference in double.
+// A small host with casters: draws them into its depth image, and the library's shadows,
+// atmosphere and sky; and the same rays for the reference in double.
 #pragma once
 
 #include "atmosphere/reference/scene_light.h"

@@ -1,5 +1,5 @@
 // From frame to frame: when the shadow map is drawn again, other extents of the scene's depth,
-// frames that never execute, and the states that images are said to be in.
+// frames that never execute, and the reported states of images.
 #include <algorithm>
 #include <cmath>
 

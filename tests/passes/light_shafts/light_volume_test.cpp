@@ -1,4 +1,4 @@
-// Exact light shafts against exact shadow intervals in double: how long, and how much light.
+// LightVolume against exact shadow intervals in double: lengths, and light.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>

@@ -195,7 +195,7 @@ TEST_F(AerialPerspectiveLutTest, DifferencesAreThoseOfSegments) {
   }
 }
 
-/// Of the volume's light along a row of queries, relative to it.
+/// Of the LUT's light along a row of queries, relative to it.
 Steps lightSteps(const std::vector<AerialAnswer>& answers) {
   Steps worst;
   for (size_t c = 0; c < 3; ++c)

@@ -53,7 +53,7 @@ const FlythroughKey& keyAt(const Flythrough& flythrough, double time_s);
 /// The scene at a time: at a key's time that key's scene; before the first key the first, after the
 /// last the last. Between two keys positions lie on the great circle, altitude h is interpolated as
 /// log(1 m + h), exposure, fov and an orthographic height as their logarithms, angles the shorter
-/// way round, and everything else, including the numbers of an atmosphere, as it is.
+/// way round, and all other numbers, those of an atmosphere included, linearly.
 Scene sceneAt(const Flythrough& flythrough, double time_s);
 
 }  // namespace alpenglow::io
