@@ -62,7 +62,7 @@ struct ViewportSize {
   double width, height, least;
 };
 ViewportSize viewportSize(const FrameState& draw);
-/// Of a pixel at the centre of the view, radians; orthographic: metres.
+/// Size of a pixel at the centre of the view: radians; orthographic: metres.
 double pixelAngle(const PictureDesc& desc, const FrameState& draw);
 
 }  // namespace alpenglow::passes

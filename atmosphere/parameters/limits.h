@@ -1,5 +1,5 @@
-// The magnitudes that the validator accepts. They keep single precision on the GPU clear of
-// overflow and of lost digits; every planet and atmosphere that is known fits many times over.
+// The magnitudes that the validator accepts. They keep single precision on the GPU free of overflow
+// and cancellation; every known planet and atmosphere is far within.
 #pragma once
 
 namespace alpenglow::parameters {

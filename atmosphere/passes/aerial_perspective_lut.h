@@ -1,6 +1,6 @@
-// Light of the atmosphere between a frame's camera and whatever it sees, at all distances, and the
-// dispatch that fills it: shaders/glsl/physics/aerial_perspective_lut.glsl says what it holds. Of
-// Solver::Moments.
+// The aerial-perspective LUT: light of the atmosphere between a frame's camera and any point in
+// view, and the dispatch that fills it. shaders/glsl/physics/aerial_perspective_lut.glsl explains
+// its contents. Of Solver::Moments.
 #pragma once
 
 #include "atmosphere/camera/camera_math.h"
@@ -29,7 +29,7 @@ class AerialPerspectiveLut {
   Status make(EffectFlags disabledEffects, VkPipelineStageFlags2 readers);
   void destroy(uint64_t frame) { lut_.destroy(frame); }
   bool made() const { return lut_.made(); }
-  /// Of each of its images, for a view without these effects.
+  /// Extent of each image, for a view with these disabled effects.
   static VkExtent3D extentFor(EffectFlags disabledEffects);
 
   /// Whether it is up to date for this draw.

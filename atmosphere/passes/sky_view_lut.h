@@ -28,8 +28,8 @@ class SkyViewLut {
   Lut& lut() { return lut_; }
   const Lut& lut() const { return lut_; }
 
-  /// What needs no phase function, or C_*; single Mie scattering without its own, or C_M; when
-  /// packed the first again, so that each binding has an image. Hillaire's has one: all light.
+  /// Moments: ln of radiance, and the share of Mie in it. Standard: C_*, and C_M (when packed the
+  /// first image again, so that each binding has one). Hillaire: one image with all light.
   const engine::Image& image() const { return lut_.image(0); }
   const engine::Image& mieImage() const { return lut_.image(1); }
   /// Columns that skyViewGrid counts, and rows.

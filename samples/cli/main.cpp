@@ -61,8 +61,8 @@ void addRender(CLI::App* app, Arguments* arguments) {
 
 void addExplain(CLI::App* app, Arguments* arguments) {
   ExplainArguments* explain = &arguments->explain;
-  CLI::App* command =
-      app->add_subcommand("explain", "Say what a scene's picture is made of, and why");
+  CLI::App* command = app->add_subcommand(
+      "explain", "Print the plan of a scene: effects, sizes and methods, and the reasons");
   command->add_option("SCENE", explain->scene, "A sample scene's name or a scene file")->required();
   command->add_flag("--json", explain->json, "For programs");
   command->callback([explain] { runExplain(*explain); });

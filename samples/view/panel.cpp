@@ -249,7 +249,7 @@ void Panel::make(State* state, const PanelFacts& facts) {
     constexpr double kHaze[2] = {1.0, 20.0};
     const auto haze =
         edited(state, "turbidity", "turbidity", turbidity(state->scene.atmosphere), kHaze, "%.2f");
-    hint("What all the atmosphere takes out of green light, over what its molecules take.");
+    hint("Optical depth of the whole atmosphere over that of its molecules, in green.");
     if (haze) setTurbidity(&state->scene.atmosphere, std::clamp(*haze, kHaze[0], kHaze[1]));
     sliders(state, true);
   }

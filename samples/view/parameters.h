@@ -1,4 +1,4 @@
-// Every number of a scene that can be turned, by name, with its unit and range.
+// Every parameter of a scene, by name, with its unit and range.
 #pragma once
 
 #include <alpenglow/io/scene_file.h>

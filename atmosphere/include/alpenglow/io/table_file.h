@@ -80,7 +80,8 @@ std::string qualityName(Quality quality);
 std::optional<Quality> findQuality(const std::string& name);
 
 /// Sizes of Solver::Moments as the command line and files spell them: "nodesR=16,degree=12", those
-/// that are not 0. Zenith angles are called zenithsSky, zenithsLimb and zenithsGround there.
+/// that are not 0. zenithsSky, zenithsLimb and zenithsGround are called ringsSky, ringsLimb and
+/// ringsGround.
 std::string momentSettingsText(const TableSizes& settings);
 /// Takes the fields that the string names, and leaves the others. Each may occur once, from 2 to
 /// kMaxTableSide (degree: to 47). Otherwise a sentence, with `settings` unchanged.
