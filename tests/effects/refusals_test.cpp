@@ -92,7 +92,7 @@ TEST_F(EffectRefusalsTest, DrawsThatNeedDisabledEffectsAreRefused) {
   EXPECT_EQ(badValue(picture(noSpace, baked, drawAt(59e3, -60))), "");
 }
 
-TEST_F(EffectRefusalsTest, LutsAndAirAreRefusedFromOutside) {
+TEST_F(EffectRefusalsTest, LutsAndAtmosphereAreRefusedFromOutside) {
   View* const view = makeView(sceneDesc(kViewEffects), baked);
   ResourceReport start, end;
   resourceReport(context(), &start);

@@ -30,7 +30,7 @@ void main() {
   if (i >= uint(sunCount.w)) return;
   vec3 view = queries[i].xyz;
   Ray ray = alpenglowRay(upAltitude.xyz, upAltitude.w, view, sunCount.xyz);
-  // Metres of air, or the negative share of all that there is.
+  // Metres in the atmosphere, or the negative share of the whole ray.
   float inside = queries[i].w < 0.0 ? -queries[i].w * ray.extent : queries[i].w;
   float distance_ = ray.start + inside;
   AerialView air = AerialView(SkyViewParams(azimuthHorizon.w, rest.x, rest.y), rest.z, rest.w, height);

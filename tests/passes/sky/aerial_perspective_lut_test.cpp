@@ -131,8 +131,8 @@ class AerialPerspectiveLutTest : public AerialPerspectiveTest {
 };
 
 // By day and under a low sun the goal is 0.3 % (p95) and 1 % (p99) of what a segment sends. In
-// twilight, and from space, where the terminator is in view and the thin air's segments are next to
-// dark, it is missed: there errors count against a thousandth of the brightest ray.
+// twilight, and from space, where the terminator is in view and segments of the thin atmosphere are
+// almost dark, it is missed: there errors count against a thousandth of the brightest ray.
 TEST_F(AerialPerspectiveLutTest, MatchesIntegrationAtAllDistances) {
   std::printf("%u bytes\n", static_cast<unsigned>(volume()->lut().bytes()));
   std::printf("per cent, p95 p99 max: own segment (>= 100 m) | scene | single | transmittance\n");
