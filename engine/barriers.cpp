@@ -53,8 +53,8 @@ void Barriers::transition(Image& image, const ImageState& after, bool discard) {
   const bool sameLayout = image.state.layout == after.layout;
   const bool reads = !writes(image.state.access) && !writes(after.access);
 
-  // Nothing runs between two calls in one batch, so the first barrier waits for what the image went
-  // through before, and only where it leads to changes.
+  // Nothing runs between two calls in one batch, so the merged barrier waits for the earlier
+  // accesses, and only the target state changes.
   if (VkImageMemoryBarrier2* pending = find(image.handle)) {
     ImageState joined = after;
     if (sameLayout) {

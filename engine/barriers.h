@@ -33,8 +33,8 @@ inline constexpr ImageState kDepthDrawn = {
     VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
     VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT};
 
-/// A batch of barriers between two pieces of work. Fixed capacity, no heap. Call `image` and the
-/// others for all that the next piece of work touches, then `record`, which empties the batch.
+/// A batch of barriers between two steps of work. Fixed capacity, no heap. Call `image` and the
+/// others for all that the next step uses, then `record`, which empties the batch.
 /// Two calls for one image in one batch are merged: nothing runs between them.
 class Barriers {
  public:

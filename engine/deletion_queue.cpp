@@ -32,7 +32,7 @@ void DeletionQueue::push(const Entry& entry) {
     entries_.push_back(entry);
   }
   ALPENGLOW_CATCH_BAD_ALLOC {
-    // The GPU may still use it, so keeping it for ever is all that can be done.
+    // The GPU may still use it, so it must be leaked.
     device_.notice(Severity::Warning,
                    "There is no host memory to defer the destruction of an object until frame "
                    "%" PRIu64 " completes, so it is never destroyed.",

@@ -1,5 +1,5 @@
-// What every room of the library holds of the host's device: the function table, limits, how to
-// report an error, counters, and the queue of deferred destruction.
+// The host's device as all parts of the library use it: the function table, limits, error reports,
+// counters, and the queue of deferred destruction.
 #pragma once
 
 #include <alpenglow/types.h>
@@ -46,8 +46,8 @@ Handle handleFrom(uint64_t number) {
   }
 }
 
-/// Lets SPIR-V of the host's own take the place of a shader: asked, by the shader's name, for each
-/// one of each pipeline that is made. True: `code`, `bytes` long, is used instead; it must live
+/// Lets the host replace SPIR-V of a shader: called with the shader's name, for each shader of each
+/// pipeline that is made. True: `code`, `bytes` long, is used instead; it must live
 /// until the pipeline is made.
 struct ShaderReplacement {
   void* user = nullptr;
@@ -56,14 +56,14 @@ struct ShaderReplacement {
 
 /// The host's device. Everything is the host's and outlives the Device; zero means none.
 struct DeviceDesc {
-  const char* name = "DeviceDesc";  ///< What the host calls this: for sentences. A literal.
+  const char* name = "DeviceDesc";  ///< The host's name of this struct, for sentences. A literal.
   VkInstance instance = VK_NULL_HANDLE;
   VkPhysicalDevice physicalDevice = VK_NULL_HANDLE;
   VkDevice device = VK_NULL_HANDLE;
   PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
   FeatureSet needed;   ///< Besides Vulkan 1.3 and synchronization2, which the engine needs itself.
   FeatureSet enabled;  ///< What the host really enabled.
-  const uint32_t* queueFamilies = nullptr;  ///< Families that will touch our images. Copied.
+  const uint32_t* queueFamilies = nullptr;  ///< Families that will use our images. Copied.
   uint32_t queueFamilyCount = 0;
   VkPipelineCache pipelineCache = VK_NULL_HANDLE;
   const VkAllocationCallbacks* allocator = nullptr;
@@ -74,8 +74,8 @@ struct DeviceDesc {
   bool debugNames = false;  ///< The host enabled VK_EXT_debug_utils on the instance.
 };
 
-/// What was made and recorded on a device. The engine counts all but dispatches and draws, which
-/// the recording rooms add themselves. Thread-safe.
+/// Counts of what was made and recorded on a device. The engine counts all but dispatches and
+/// draws, which the recording code adds. Thread-safe.
 struct Counters {
   std::atomic<uint64_t> pipelines{0};
   std::atomic<uint64_t> shaderVariants{0};
@@ -92,8 +92,8 @@ struct Counters {
   void removeBytes(uint64_t count) { bytes -= count; }
 };
 
-/// The host's device as we see it. Everything here is thread-safe. Made on the heap with the host's
-/// allocation callbacks left aside: those apply to Vulkan objects only.
+/// The host's device. Everything here is thread-safe. Made on the heap without the host's
+/// allocation callbacks: those apply to Vulkan objects only.
 class Device {
  public:
   /// Checks the description and fills the table. On failure `*out` is null and the description's
@@ -103,7 +103,7 @@ class Device {
   static Status create(const DeviceDesc& desc, Device** out);
   /// The same with a table that is already filled; for tests.
   static Status create(const DeviceDesc& desc, const Dispatch& table, Device** out);
-  /// Destroys what still waits, whatever its frame, and reports images, buffers and bytes that
+  /// Destroys all that is deferred, whatever its frame, and reports images, buffers and bytes that
   /// nobody released as a Warning. Null is ignored.
   static void destroy(Device* device);
   Device(const Device&) = delete;
@@ -119,7 +119,7 @@ class Device {
   const MemoryHooks* memoryHooks() const { return hooks_.allocate != nullptr ? &hooks_ : nullptr; }
   const ShaderReplacement& shaderReplacement() const { return shaderReplacement_; }
   DiagnosticSink sink() const { return {desc_.diagnostic, desc_.user}; }
-  /// What the host calls the description of this device.
+  /// The host's name of the description of this device.
   const char* descName() const { return desc_.name; }
   /// The families that share our images and buffers; more than one means concurrent.
   const std::vector<uint32_t>& queueFamilies() const { return queueFamilies_; }

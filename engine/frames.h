@@ -1,6 +1,5 @@
-// Frame numbers of the host, and the objects that must hear of them: what was recorded in a frame
-// may be dropped by the host, and what only a bake needs is freed when its last frame has
-// completed.
+// Frame numbers of the host, and the objects that are notified of them: the host may abandon a
+// frame's commands, and what only a bake needs is freed when its last frame has completed.
 #pragma once
 
 #include <alpenglow/types.h>
@@ -22,9 +21,9 @@ class FrameObject {
 
   /// Frames up to `completed` have finished.
   virtual void frameCompleted(uint64_t completed) = 0;
-  /// What was recorded in `frame` will never execute.
+  /// Commands of `frame` will never execute.
   virtual void frameAbandoned(uint64_t frame) = 0;
-  /// Another object is about to go.
+  /// Another object is about to be destroyed.
   virtual void objectDestroyed(const FrameObject*) {}
   /// Destroys the object; the device has finished with it.
   virtual void destroyNow() = 0;
@@ -47,7 +46,7 @@ class FrameList {
   /// The numbers are checked by the caller.
   void advance(uint64_t submitting, uint64_t completed);
   void abandon(uint64_t frame);
-  /// Tells all others that this one is about to go.
+  /// Notifies all others that this one is about to be destroyed.
   void announceDestruction(const FrameObject* object);
   /// Destroys all objects, the newest first.
   void destroyAll();

@@ -26,7 +26,7 @@ struct ImageDesc {
   const char* name = "";     ///< Copied; for error sentences and debug names.
 };
 
-/// What barriers know of an image.
+/// The tracked state of an image.
 struct ImageTrack {
   /// The state that commands recorded so far leave behind: the layout, and the last writer or all
   /// readers since. Barriers keeps it up to date; it follows recording order, so command buffers
@@ -39,7 +39,7 @@ struct ImageTrack {
 struct Image : ImageTrack {
   VkImage handle = VK_NULL_HANDLE;
   VkImageView view = VK_NULL_HANDLE;  ///< All levels and layers; made when memory is bound.
-  ImageDesc desc;                     ///< Its name points to nothing: use Image::name.
+  ImageDesc desc;                     ///< Its name is dangling: use Image::name.
   char name[48] = "";
   uint64_t bytes = 0;  ///< Of its memory requirements.
 };

@@ -99,7 +99,7 @@ struct Request {
   bool mustMap;
 };
 
-/// Gives the answer of the hook back and says what is wrong with it.
+/// Returns the hook's range to it and reports what is wrong with the range.
 Status refuseAnswer(Device& device, const MemoryHooks& hooks, const Request& request,
                     MemoryBlock* block) {
   const MemoryRange answer = block->range;

@@ -24,8 +24,8 @@ struct Shader {
 };
 
 /// The host's code in place of `own` (DeviceDesc::shaders), if it gives any, else `own`.
-/// InvalidArgument for code that doesn't fit in its place. What the calls below do with each of
-/// their shaders; for caches, whose keys need the code that is used.
+/// InvalidArgument for code that doesn't fit in its place. The calls below do this with each of
+/// their shaders; also for caches, whose keys need the code that is used.
 Status chooseShader(const Device& device, const Shader& own, Shader* out);
 
 inline constexpr uint32_t kMaxSpecConstants = 32;
@@ -89,8 +89,8 @@ struct GraphicsPipelineDesc {
   VkCullModeFlags cull = VK_CULL_MODE_NONE;
   bool depthTest = false;
   bool depthWrite = false;
-  bool depthClamp =
-      false;  ///< PlanRequest the feature: nothing is clipped at the near and far planes.
+  /// Needs the feature: nothing is clipped at the near and far planes.
+  bool depthClamp = false;
   VkCompareOp depthCompare = VK_COMPARE_OP_GREATER_OR_EQUAL;
 };
 

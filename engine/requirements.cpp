@@ -110,8 +110,8 @@ FeatureSet offeredBy(PFN_vkGetPhysicalDeviceFeatures2 getFeatures2, VkPhysicalDe
   return offered;
 }
 
-/// Of the Vulkan loader; `unknown` where it doesn't say: loaders of Vulkan 1.0 don't have the
-/// function, and neither do hosts' own that know the functions of an instance alone.
+/// Version of the Vulkan loader, or `unknown`: loaders of Vulkan 1.0 don't have the function, nor
+/// do hosts' loaders that only resolve the functions of an instance.
 uint32_t loaderVersion(PFN_vkGetInstanceProcAddr getInstanceProcAddr, uint32_t unknown) {
   const auto enumerate = reinterpret_cast<PFN_vkEnumerateInstanceVersion>(
       getInstanceProcAddr(VK_NULL_HANDLE, "vkEnumerateInstanceVersion"));
@@ -155,7 +155,7 @@ Status checkPhysicalDevice(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInst
   addVersionGap("a loader of ", needed.apiVersion, loader, &gaps);
   FeatureSet features = needed;
   if (!gaps.empty()) features.synchronization2 = features.dynamicRendering = false;
-  features.apiVersion = 0;  // Said already.
+  features.apiVersion = 0;  // Reported already.
   const GapList more = listGaps(features, found);
   if (!more.empty()) gaps.add(more.text());
   return report(diagnostic, user, Status::Unsupported, "The device \"", properties.deviceName,

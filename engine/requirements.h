@@ -5,7 +5,7 @@
 
 namespace alpenglow::engine {
 
-/// What a device must offer, does offer, or was made with.
+/// Features that a device must offer, does offer, or was made with.
 struct FeatureSet {
   uint32_t apiVersion = 0;  ///< Of the device, and of the instance's VkApplicationInfo.
   bool synchronization2 = false;

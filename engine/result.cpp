@@ -41,8 +41,8 @@ Status statusOf(VkResult result) {
   switch (result) {
     case VK_ERROR_OUT_OF_HOST_MEMORY:
       return Status::OutOfHostMemory;
-    // Running out of pool space or of allocations is running out of the device's memory to a host:
-    // what helps is the same.
+    // To a host, running out of pool space or of allocations equals running out of device memory:
+    // the remedy is the same.
     case VK_ERROR_OUT_OF_DEVICE_MEMORY:
     case VK_ERROR_OUT_OF_POOL_MEMORY:
     case VK_ERROR_FRAGMENTED_POOL:

@@ -36,7 +36,7 @@ constexpr uint32_t kUniformConstant = 0, kUniform = 2, kPushConstant = 9, kStora
 constexpr size_t kHeaderWords = 5;
 constexpr uint32_t kMostIds = 1u << 20;  // Our largest shader has some thousands.
 
-/// What is kept of an id.
+/// Stored properties of an id.
 struct Id {
   uint32_t op = 0;
   uint32_t type = 0;     ///< Pointee, element, image; of a variable its pointer.
@@ -203,8 +203,8 @@ class Module {
     return true;
   }
 
-  // What a variable is, without pointers and arrays, and how many of it. A chain of more steps than
-  // this is no type.
+  // The type of a variable, without pointers and arrays, and their count. A longer chain is no
+  // valid type.
   const Id* pointee(const Id& variable, uint32_t* count) const {
     const Id* type = &ids_[variable.type];
     for (int i = 0; i < 8; ++i) {

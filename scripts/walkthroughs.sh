@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # walkthroughs.sh [FLYTHROUGH...]: makes the pictures of docs/flythroughs again, of all sample flythroughs or
-# of those named, with the built program. PlanRequest oiiotool.
+# of those named, with the built program. Needs oiiotool.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -31,7 +31,7 @@ const char* capabilityName(CapabilityFlags capability) {
   }
 }
 
-// Each capability asks for what it alone needs.
+// What each capability needs besides what all need.
 Requirements requirementsOf(CapabilityFlags wanted) {
   Requirements needed;
   if (wanted == 0) return needed;
@@ -49,7 +49,7 @@ Requirements requirementsOf(CapabilityFlags wanted) {
   return needed;
 }
 
-/// Of those wanted, what a device with these features has.
+/// Those of the wanted capabilities that a device with these features has.
 CapabilityFlags capabilitiesOf(const engine::FeatureSet& offered, CapabilityFlags wanted) {
   CapabilityFlags has = 0;
   for (CapabilityFlags one = 1; one <= kAllCapabilities; one <<= 1) {
@@ -100,7 +100,7 @@ Status createContext(const ContextDesc& desc, Context** out) {
   }
   context->capabilities = desc.capabilities == 0 ? kDefaultCapabilities : desc.capabilities;
   Requirements needed = requirementsOf(context->capabilities);
-  // A host may draw in render passes: createView asks. Shafts have scopes of their own.
+  // A host may draw in render passes: createView checks. Light shafts use dynamic rendering.
   if ((context->capabilities & kCapabilityLightShafts) == 0)
     needed.deviceFeatures &= ~DeviceFeatureFlags{kFeatureDynamicRendering};
   Status status = createDevice(desc, needed, &context->device);

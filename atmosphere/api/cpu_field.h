@@ -6,7 +6,7 @@
 #include "atmosphere/tables/moment_shape.h"
 
 namespace alpenglow::cpu {
-using namespace physics_f32;             // NOLINT: as the source has it
+using namespace physics_f32;             // NOLINT: the shared source uses its names
 using Spectrum = physics_f32::Spectrum;  // not the public one
 
 /// A tightly packed copy of a table of RGBA16F or RGBA32F. Does not own it. Null data: zeros.
@@ -40,7 +40,7 @@ class Field {
         moments_(moments),
         source_(source) {}
 
-  /// Those of the sun on a horizontal surface, and of the sky; h up to the top.
+  /// Irradiance of the sun on a horizontal surface, and of the sky; h up to the top.
   Spectrum direct(Real h, Real muS) { return sunlight(medium_, shape_, h, muS) * max(muS, 0.0f); }
   Spectrum sky(Real h, Real muS) {
     return irradiance_ ? fieldIrradiance(medium_, shape_, h, muS) : Spectrum(0.0f);

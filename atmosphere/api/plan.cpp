@@ -1,5 +1,5 @@
-// Plans of the public API: the rules of the plan's room, and what their outcome costs, measured by
-// really planning tables and views both ways.
+// Plans of the public API: the rules of atmosphere/plan, and the cost of their outcome, from the
+// graphs and views of both variants.
 #include <alpenglow/plan.h>
 
 #include <new>
@@ -24,7 +24,7 @@ using plan::add;
 using plan::choiceOf;
 using plan::difference;
 
-/// A plan's tables with everything that its description leaves open.
+/// A plan's tables with all zeros of its description resolved.
 struct Completed {
   Parameters parameters;
   TableDesc desc;
@@ -71,7 +71,7 @@ void listImages(const Parameters& parameters, Plan* plan) {
   if (plan::drawsLightShafts(*plan)) append(plan::shadowMapImage());
 }
 
-// Lowers the level until everything fits; what the host gave is kept.
+// Lowers the level until the budget is met; values given by the host are kept.
 void fitBudget(const Parameters& parameters, Plan* plan) {
   const TableDesc& base = plan->request.tables;
   plan::setCost(costOf(parameters, *plan), plan);
@@ -86,13 +86,13 @@ void fitBudget(const Parameters& parameters, Plan* plan) {
 PlanCost savedBy(const Parameters& parameters, const Plan& plan, Effect effect) {
   Plan other = plan;
   choiceOf(&other, effect).on = true;
-  // Shafts are of the aerial perspective over a scene.
+  // Light shafts need aerial perspective over a scene.
   if (effect == Effect::LightShafts) choiceOf(&other, Effect::AerialPerspective).on = true;
   plan::applyEffects(parameters, &other);
   return difference(costOf(parameters, other), plan.cost);
 }
 
-// Against the default of each choice.
+// Costs relative to the default of each choice.
 void priceChoices(const Parameters& parameters, Plan* plan) {
   for (uint32_t i = kEffectCount; i < plan->choiceCount; ++i) {
     PlanChoice& choice = plan->choices[i];
@@ -144,7 +144,7 @@ void fill(const Parameters& parameters, const PlanRequest& request, Plan* plan) 
   plan->whole = wholeCost(parameters, *plan);
 }
 
-/// As createTables checks them, on a device with the largest images that any has.
+/// Checks them like createTables, on a device with the largest images that any has.
 Status checkTables(const Parameters& parameters, const PlanRequest& request,
                    const DiagnosticSink& sink) {
   TableDesc desc = request.tables;

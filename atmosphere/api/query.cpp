@@ -97,7 +97,7 @@ Status answerOnCpu(const Tables& tables, const ProbeQuery* queries, uint32_t cou
   return Status::Ok;
 }
 
-// Of what the shader has written for one query.
+// Decodes what the shader has written for one query.
 ProbeAnswer deviceAnswer(const physics_f64::Medium& medium, const ProbeQuery& query,
                          const float* values) {
   const bool ray = query.kind == QueryKind::Ray;

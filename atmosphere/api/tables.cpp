@@ -1,4 +1,4 @@
-// Tables of the public API: argument checks, then the rooms below.
+// Tables of the public API: argument checks, then atmosphere/tables.
 #include <alpenglow/tables.h>
 
 #include "atmosphere/api/context_impl.h"

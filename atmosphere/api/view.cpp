@@ -1,4 +1,4 @@
-// Views of the public API: argument checks, then the view room.
+// Views of the public API: argument checks, then atmosphere/view.
 #include <alpenglow/view.h>
 
 #include "atmosphere/api/context_impl.h"
@@ -14,7 +14,7 @@ Status nullCall(const View* view, const char* call) {
                                          "%s got a null argument, but needs all of them.", call);
 }
 
-/// Each capability that the description needs.
+/// Checks each capability that the description needs.
 Status requireCapabilities(const Context& context, const ViewDesc& desc) {
   Status status = requireCapability(context, kCapabilitySky, "createView");
   if (status == Status::Ok && desc.aerialPerspective != AerialPerspective::Off) {

@@ -18,8 +18,8 @@ namespace {
 using tables::BakeGraph;
 using tables::Stage;
 
-/// Texels of Hillaire's table of multiple scattering: multipleCoordinate in
-/// shaders/glsl/baselines/hillaire.glsl has them too.
+/// Texels of Hillaire's table of multiple scattering; also in multipleCoordinate of
+/// shaders/glsl/baselines/hillaire.glsl.
 constexpr uint32_t kMultipleSide = 32;
 /// Of Schafhitzel's table, mu_s x mu x r.
 constexpr VkExtent3D kSingleExtent = {32, 128, 32};
@@ -33,7 +33,7 @@ struct BaselineConstants {
 };
 static_assert(sizeof(BaselineConstants) == 160);
 
-// A shader in the build for a format.
+// The variant of a shader for a table format.
 #define ALPENGLOW_SHADER(name, format)                                                       \
   ((format) == TableFormat::Half                                                             \
        ? engine::Shader{shaders::name##Half, sizeof shaders::name##Half, #name " (rgba16f)"} \
@@ -60,7 +60,7 @@ Stage stageFor(const VkExtent3D& extent, const engine::Shader& shader, uint64_t 
   return stage;
 }
 
-/// Pass "T". A model without tables has it all the same, in the fewest texels: each binding of the
+/// Pass "T". A model without tables has it too, with the fewest texels, because each binding of the
 /// set that hosts bind must hold an image.
 void addOpticalDepth(BakeGraph* graph, VkExtent3D extent, TableFormat finest) {
   const uint32_t t = addImage(graph, "Alpenglow T", VK_IMAGE_TYPE_2D, extent, finest);
@@ -73,7 +73,7 @@ void addOpticalDepth(BakeGraph* graph, VkExtent3D extent, TableFormat finest) {
 void addMultiple(BakeGraph* graph, TableFormat finest) {
   const VkExtent3D extent = {kMultipleSide, kMultipleSide, 1};
   const uint32_t psi = addImage(graph, "Alpenglow Psi", VK_IMAGE_TYPE_2D, extent, finest);
-  // Of 64 directions with 20 steps, and a look at the ground.
+  // For 64 directions with 20 steps, and the ground.
   Stage stage = stageFor(extent, ALPENGLOW_SHADER(kHillaireMultiple, finest), uint64_t{64} * 21);
   stage.inputs = {{1, graph->bound[0]}};
   stage.outputs = {{psi}};

@@ -1,4 +1,4 @@
-// The simpler models' tables, as graphs that the bake carries out: docs/baselines.md.
+// Bake graphs of the simpler models' tables: docs/baselines.md.
 #pragma once
 
 #include "atmosphere/tables/bake_graph.h"

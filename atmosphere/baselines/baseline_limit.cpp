@@ -1,4 +1,4 @@
-// Where the simpler models say nothing.
+// Where the simpler models are undefined or leave something out.
 #include <alpenglow/tables.h>
 
 namespace alpenglow {

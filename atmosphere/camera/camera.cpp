@@ -34,7 +34,7 @@ EyeCamera cameraFromGeodetic(const Parameters& parameters, double latitude, doub
   const Frame f = localFrame(latitude, longitude);
   EyeCamera camera;
   camera.fov = fov;
-  // Below the ground there is no place, and below the centre "up" would turn round.
+  // Altitudes below the ground count as 0: beyond the planet's centre "up" would be reversed.
   const double r = parameters.bottomRadius_m + std::max(altitude_m, 0.0);
   for (int i = 0; i < 3; ++i) {
     const double ahead = std::cos(heading) * f.north[i] + std::sin(heading) * f.east[i];

@@ -14,9 +14,9 @@ physics_f64::Spectrum depthToTop(const physics_f64::Medium& medium, double h, do
                                             physics_f64::distanceToTop(medium, h, mu));
 }
 
-// Where half of the sun's disc has set, its centre's ray ends on the ground. What is left of the
-// disc is seen past the horizon, where depthTowardsTop of shaders/glsl/physics has twice the
-// grazing ray's depth, less that of the part behind the camera.
+// When half of the sun's disc has set, the ray to its centre ends on the ground. The visible rest
+// of the disc is past the horizon, where depthTowardsTop of shaders/glsl/physics takes twice the
+// grazing ray's depth minus that of the part behind the camera.
 physics_f64::Spectrum depthTowardsSun(const physics_f64::Medium& medium,
                                       const physics_f64::Ray& ray) {
   if (!ray.hitsGround) return depthToTop(medium, ray.h, ray.mu);

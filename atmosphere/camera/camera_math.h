@@ -1,4 +1,4 @@
-// Where a frame's camera and sun stand, as plain numbers in double.
+// Positions of a frame's camera and sun, as plain numbers in double.
 #pragma once
 
 #include "atmosphere/camera/picture.h"
@@ -13,15 +13,15 @@ inline double dot(const double a[3], const double b[3]) {
 
 /// Distance from the planet's centre.
 double cameraRadius(const EyeCamera& camera);
-/// The one subtraction that loses digits, taken in double (shaders/glsl/physics/geometry.glsl); 0
-/// below the ground.
+/// The one subtraction that loses precision, computed in double
+/// (shaders/glsl/physics/geometry.glsl); 0 below the ground.
 double cameraAltitude(const Parameters& parameters, const EyeCamera& camera);
 
-/// How a camera's rays lie in a LUT.
+/// The mapping of a camera's rays to a LUT.
 physics_f64::SkyViewParams skyViewParams(const Parameters& parameters, double altitude);
 
-/// Horizontal unit vector towards the sun at the camera; 0 for a sun in the zenith, towards which
-/// no azimuth is the sun's, and any will do.
+/// Horizontal unit vector towards the sun at the camera; 0 for a sun in the zenith, where any
+/// azimuth will do.
 void sunAzimuth(const FrameState& draw, double out[3]);
 
 /// Irradiance of the sun on a surface that faces it, at the camera: transmittance by quadrature, 0

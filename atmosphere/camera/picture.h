@@ -1,5 +1,5 @@
-// A picture and a frame as the passes see them: resolved, in the planet frame, in metres. The View
-// makes them of what the host states.
+// A picture and a frame as the passes use them: resolved, in the planet frame, in metres. View
+// makes them from ViewDesc and FrameDesc.
 #pragma once
 
 #include <alpenglow/view.h>
@@ -35,7 +35,7 @@ struct FrameState {
   DepthRange depth;
 };
 
-/// ViewDesc with what the tables add, and its zeros replaced.
+/// ViewDesc with its zeros replaced, and with properties of the tables.
 struct PictureDesc {
   VkFormat colorFormat = VK_FORMAT_UNDEFINED;
   VkFormat depthFormat = VK_FORMAT_UNDEFINED;
@@ -55,7 +55,7 @@ struct PictureDesc {
   bool aerialLut = false;  ///< ... from its LUT.
 };
 
-/// LightShaftDesc with its zeros replaced, and what it shares with the picture.
+/// LightShaftDesc with its zeros replaced, and with properties of the picture.
 struct LightShaftSettings : LightShaftDesc {
   VkFormat sceneDepthFormat = VK_FORMAT_UNDEFINED;
   DepthConvention depth = DepthConvention::Standard;
@@ -72,18 +72,19 @@ struct PlanetBox {
 /// Casters of a frame.
 struct CasterSet {
   PlanetBox bounds;
-  World world;  ///< In which the host places them.
+  World world;  ///< In which the host places the casters.
   DrawCastersFn draw = nullptr;
   void* user = nullptr;
   uint64_t version = 0;
-  bool* outsideReported = nullptr;  ///< Of the view: a caster far outside `bounds` was reported.
+  bool* outsideReported =
+      nullptr;  ///< The view's flag: a caster far outside `bounds` was reported.
 };
 
 /// A camera above a point of the planet. Angles in radians; altitudes below 0 count as 0.
 EyeCamera cameraFromGeodetic(const Parameters& parameters, double latitude, double longitude,
                              double altitude_m, double heading, double pitch, double roll,
                              double fov);
-/// Towards a sun seen at these angles about the local vertical.
+/// Unit vector towards a sun at these angles about the local vertical.
 void sunDirection(double latitude, double longitude, double elevation, double azimuth,
                   double direction[3]);
 

@@ -1,4 +1,4 @@
-// How a camera's picture lies in space and in depth: shared by what draws into a host's scene.
+// Picture and depth of a camera, for all passes that draw into a host's scene.
 #pragma once
 
 #include "atmosphere/camera/picture.h"
@@ -20,7 +20,7 @@ struct PictureEdges {
 };
 PictureEdges pictureEdges(Projection projection, const FrameState& draw);
 
-/// Column-major; of metres from the camera in the planet's axes. Not for fisheyes.
+/// Column-major, from metres off the camera in the planet's axes. Not for fisheyes.
 void clipFromCamera(Projection projection, DepthConvention convention, const FrameState& draw,
                     double matrix[16]);
 

@@ -23,7 +23,7 @@ struct Cone {
   double half;
 };
 
-/// Where a point of the viewport looks to; x and y in pixels from its centre, to the right and up.
+/// Direction through a point of the viewport; x and y in pixels from its centre, right and up.
 void direction(const PictureDesc& desc, const FrameState& draw, double x, double y, double out[3]) {
   const EyeCamera& c = draw.camera;
   const std::array<double, 3> right = cameraRight(c);
@@ -38,7 +38,7 @@ void direction(const PictureDesc& desc, const FrameState& draw, double x, double
     out[i] = ahead * c.forward[i] + scale * (x * right[i] + y * c.up[i]);
 }
 
-/// A cone around all that an area sees.
+/// A cone around all directions of an area.
 Cone coneOf(const PictureDesc& desc, const FrameState& draw, const VkRect2D& area) {
   const ViewportSize size = viewportSize(draw);
   const double x0 = area.offset.x - 0.5 * size.width, x1 = x0 + area.extent.width;
@@ -76,7 +76,7 @@ VkRect2D tileOf(const VkExtent2D& whole, uint32_t columns, uint32_t rows, uint32
           {edge(i + 1, columns, whole.width) - x, edge(j + 1, rows, whole.height) - y}};
 }
 
-/// To the right of those from `row` on: as part of the last of them, if it sees the same.
+/// Appends a part to the row that starts at `row`: merged with the last part if it shows the same.
 void addTile(ViewportPartition* to, uint32_t row, const Part& tile) {
   if (to->count > row && to->parts[to->count - 1].visible == tile.visible) {
     to->parts[to->count - 1].area.extent.width += tile.area.extent.width;
@@ -85,7 +85,8 @@ void addTile(ViewportPartition* to, uint32_t row, const Part& tile) {
   }
 }
 
-/// Joins the parts from `row` on with those from `above` on, if they are cut at the same places.
+/// Joins the parts from `row` on with those from `above` on if they are divided at the same
+/// columns.
 bool joinRow(ViewportPartition* parts, uint32_t above, uint32_t row) {
   Part* const upper = &parts->parts[above];
   Part* const lower = &parts->parts[row];

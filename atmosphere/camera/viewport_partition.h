@@ -1,5 +1,5 @@
 // The viewport of a frame, cut into parts by what their pixels may see, so that each is drawn by
-// the cheapest pipeline: a pixel of sky pays for no ground, and one of empty space for no air.
+// the cheapest pipeline: pixels of sky cost no ground, pixels of space no atmosphere.
 #pragma once
 
 #include "atmosphere/camera/picture.h"
@@ -18,7 +18,7 @@ struct Visible {
   bool operator==(const Visible&) const = default;
 };
 
-/// All that occur, and a number for each.
+/// All combinations that occur, and a number for each.
 inline constexpr Visible kCombinations[] = {{false, false, false}, {true, false, false},
                                             {true, true, false},   {false, false, true},
                                             {true, false, true},   {true, true, true}};
@@ -27,15 +27,15 @@ constexpr uint32_t variant(const Visible& v) {
   return (v.atmosphere ? v.ground ? 2u : 1u : 0u) + (v.disc ? 3u : 0u);
 }
 
-/// Whether a view without these effects draws such pixels.
+/// Whether a view with these disabled effects draws such pixels.
 constexpr bool drawn(EffectFlags disabledEffects, const Visible& v) {
   return (v.atmosphere || hasEffect(disabledEffects, Effect::SpaceViews)) &&
          (!v.ground || hasEffect(disabledEffects, Effect::Ground)) &&
          (!v.disc || hasEffect(disabledEffects, Effect::SunDisc));
 }
 
-/// Of a viewport's pixels, counted from its corner. Conservative, from the cones around them, the
-/// planet, the atmosphere and the sun.
+/// What an area of the viewport may show; `area` counts from the viewport's corner. Conservative,
+/// from cones around its rays, the planet, the atmosphere and the sun.
 Visible visible(const Parameters& parameters, const PictureDesc& desc, const FrameState& draw,
                 const VkRect2D& area);
 
@@ -44,7 +44,7 @@ struct Part {
   Visible visible;
 };
 
-/// Parts that together are the viewport, and do not overlap; one for an orthographic camera, which
+/// Parts that cover the viewport without overlap; one for an orthographic camera, which
 /// may see anything but the sun's disc.
 struct ViewportPartition {
   static constexpr uint32_t kSide = 8;  ///< Most columns and rows.
@@ -54,7 +54,7 @@ struct ViewportPartition {
 ViewportPartition cut(const Parameters& parameters, const PictureDesc& desc,
                       const FrameState& draw);
 
-/// To the right of where a camera looks.
+/// The camera's unit vector to the right.
 std::array<double, 3> cameraRight(const EyeCamera& camera);
 
 /// Width and height, and the lesser of them, in pixels.
@@ -62,7 +62,7 @@ struct ViewportSize {
   double width, height, least;
 };
 ViewportSize viewportSize(const FrameState& draw);
-/// Of a pixel at the centre of the view, radians; orthographic: metres.
+/// Size of a pixel at the centre of the view: radians; orthographic: metres.
 double pixelAngle(const PictureDesc& desc, const FrameState& draw);
 
 }  // namespace alpenglow::passes

@@ -1,4 +1,4 @@
-// Between a host's world and the planet frame.
+// Conversion from a host's world to the planet frame.
 #pragma once
 
 #include "atmosphere/camera/picture.h"
@@ -20,7 +20,7 @@ struct Placement {
   double axes[3][3];  ///< World x, y, z in the planet frame.
 };
 
-/// Of a checked world. Axes of the box are the world's where they are zero.
+/// Needs a checked world. Zero axes of the box stand for the world's.
 PlanetBox planetBox(const Placement& placement, const Box& box);
 
 }  // namespace alpenglow::passes

@@ -14,7 +14,7 @@
 
 namespace alpenglow::cost {
 
-/// One sentence; the room's functions throw it, measure() catches it.
+/// One sentence; functions of this folder throw it, measure() catches it.
 class Failure : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -58,8 +58,8 @@ class Bench {
   const std::string& refusal() const { return error_; }
   /// Of the context that is in use.
   ResourceReport resources();
-  /// A context of its own for what comes next, so that it is accounted alone. No tables or views of
-  /// the last one may be left.
+  /// Makes a new context, so that what follows is counted separately. No tables or views of the
+  /// last one may be left.
   void renew();
   /// Throws the first message of the validation layers, if there is any.
   void checkValidation() const;

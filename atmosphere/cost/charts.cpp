@@ -204,7 +204,7 @@ class Canvas {
     cairo_fill(c_);
   }
 
-  // Each beside its point, where it covers least of what is there already.
+  // Each label beside its point, where it covers least of what is drawn already.
   void labels() {
     font(12.0);
     std::vector<Box> taken;

@@ -84,8 +84,8 @@ class Sweep {
                {std::max(options.width, kPicture.width), std::max(options.height, kPicture.height)},
                options.validation) {}
 
-  /// A failure of one setting is its row's note: it takes no others with it. `pictured`: its
-  /// pictures are kept for compare.
+  /// A failure of one setting becomes its row's note; the others go on. `pictured`: its pictures
+  /// are kept for compare.
   Row measure(const Configuration& configuration, bool pictured);
   /// Pictures of the models that were measured, against the finest of the moment solver.
   std::vector<Comparison> compare();
@@ -112,7 +112,7 @@ class Sweep {
 TablesPointer Sweep::bakeTimed(const Configuration& configuration, Row* row) {
   const Parameters& parameters = all_.set.parameters;
   double seconds = 0.0;
-  // The first compiles the shaders; a frame's buffers of it are gone before the next.
+  // The first run compiles the shaders; the buffers of its frame are freed before the next.
   TablesPointer tables = bench_.bake(parameters, configuration.desc, &seconds);
   if (tables == nullptr) {
     row->note = bench_.refusal();
@@ -245,7 +245,7 @@ std::vector<Comparison> Sweep::compare() {
   try {
     finest = finestPictures();
   } catch (const Failure&) {
-    return result;  // The figures stand without pictures, and the page says that there are none.
+    return result;  // The figures remain; the page reports that there are no pictures.
   }
   for (const Pictured& pictured : pictured_) {
     for (size_t i = 0; i < finest.size(); ++i) {

@@ -1,4 +1,4 @@
-// The page of a report, for people.
+// The HTML page of a report.
 #pragma once
 
 #include <alpenglow/cost.h>

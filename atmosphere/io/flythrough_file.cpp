@@ -13,8 +13,8 @@ namespace {
 constexpr double kMaxTime_s = 1e6;
 constexpr const char* kMoving[] = {"atmosphere", "sun", "camera", "exposure", "stars"};
 
-// `base` with what `patch` gives: objects field by field, all else in its place. A null takes a
-// field out, so that it has its default.
+// `base` with the fields of `patch`: objects are merged field by field, other values replaced. Null
+// removes a field, so that it has its default.
 Json patched(Json base, const Json& patch) {
   if (!patch.is_object()) return patch;
   if (!base.is_object()) base = Json::object();
@@ -37,7 +37,7 @@ Json patchedAtmosphere(Json base, const Json& patch) {
   return base;
 }
 
-// Puts what a key gives into the scene of the keys before it.
+// Merges a key's fields into the scene of the keys before it.
 void applyKey(JsonErrors* errors, const Json& key, const std::string& folder, Json* scene) {
   for (const char* field : kMoving) {
     if (!key.contains(field)) continue;
@@ -90,7 +90,7 @@ void checkOrder(JsonErrors* errors, const Flythrough& flythrough, const Flythrou
   errors->add(between + "; there is nothing between the two, so the key's 'move' must be \"cut\".");
 }
 
-// What is made once for a flythrough is made for its first key.
+// Things that are made once for a flythrough are made for its first key.
 void checkGround(JsonErrors* errors, const Flythrough& flythrough, const FlythroughKey& key) {
   if (flythrough.keys.empty()) return;
   const Scene& first = flythrough.keys.front().scene;

@@ -17,20 +17,20 @@ constexpr double kSameTime_s = 1e-9;
 using Four = std::array<double, 4>;
 using Scenes = std::array<const Scene*, 4>;
 
-// Slope at a key that joins two stretches of these lengths and mean slopes.
+// Slope at a key that joins two segments of these lengths and mean slopes.
 double slopeBetween(double hBefore, double before, double hAfter, double after) {
   if (before * after <= 0.0) return 0.0;
   const double w1 = 2.0 * hAfter + hBefore, w2 = hAfter + 2.0 * hBefore;
   return (w1 + w2) / (w1 / before + w2 / after);
 }
 
-// The slope of a neighbour at one speed, as far as a monotone cubic can take it over.
+// The slope of a linear neighbour, limited to what a monotone cubic allows.
 double slopeOfLinear(double neighbour, double own) {
   if (neighbour * own <= 0.0) return 0.0;
   return std::copysign(std::min(std::abs(neighbour), 3.0 * std::abs(own)), own);
 }
 
-// Values that are angles: each the shorter way from the one before, the second as it is.
+// Angles: each the shorter way from the one before; the second is unchanged.
 Four unwrapped(Four angles) {
   const auto way = [](double from, double to) { return std::remainder(to - from, 2.0 * kPi); };
   const Four a = angles;
@@ -55,7 +55,7 @@ double arcBetween(const SceneCamera& a, const SceneCamera& b) {
   return 2.0 * std::asin(std::min(1.0, 0.5 * std::hypot(p.x - q.x, p.y - q.y, p.z - q.z)));
 }
 
-// Goes `arc` of the way `whole` on the great circle from a to b.
+// Moves along `arc` of the angle `whole` on the great circle from a to b.
 void goAlong(const SceneCamera& a, const SceneCamera& b, double arc, double whole,
              SceneCamera* out) {
   if (whole < 1e-12) return;
@@ -167,7 +167,7 @@ void moveAll(const Between& between, Scene* scene) {
   }
 }
 
-// The stretch after a key that is not the last.
+// The segment after a key that is not the last.
 FlythroughSegment segmentAfter(const Flythrough& flythrough, size_t i, Scenes* scenes) {
   const size_t last = flythrough.keys.size() - 1;
   const size_t at[4] = {i > 0 ? i - 1 : i, i, i + 1, std::min(i + 2, last)};

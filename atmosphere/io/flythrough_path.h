@@ -1,4 +1,4 @@
-// What lies between two keys of a flythrough.
+// Interpolation between two keys of a flythrough.
 #pragma once
 
 #include <alpenglow/io/flythrough_file.h>
@@ -15,12 +15,12 @@ std::string whatHasNoBetween(const Scene& a, const Scene& b);
 /// A segment of a flythrough between two keys, with their neighbours.
 struct FlythroughSegment {
   std::array<double, 4> time = {};  ///< Of the key before, both keys, and the key after.
-  bool linear = false;              ///< The stretch runs at one speed;
-  bool joins[2] = {};               ///< it goes on from the one before; the one after goes on;
-  bool joinsLinear[2] = {};         ///< and those run at one speed.
+  bool linear = false;              ///< The segment runs at constant speed;
+  bool joins[2] = {};               ///< it continues the one before; the one after continues it;
+  bool joinsLinear[2] = {};         ///< and those run at constant speed.
 };
 
-/// A value at a time of the stretch, of its values at the four keys: linear, or a cubic that is
+/// A value at a time of the segment, from its values at the four keys: linear, or a cubic that is
 /// monotone where the values are (Fritsch and Butland 1984), and at rest where nothing joins.
 double valueAt(const FlythroughSegment& segment, double time, const std::array<double, 4>& values);
 

@@ -1,4 +1,4 @@
-// What the first bytes of an image file tell, before the image library sees it.
+// Checks of the first bytes of an image file, before the image library opens it.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@ namespace alpenglow::io {
 /// tiff; null for others.
 const char* imageFormatOf(const std::string& bytes);
 
-/// What can be checked before the image library allocates, or prints complaints of its own: empty,
-/// or what is wrong as the end of a sentence. `format` is imageFormatOf's. EXR files may have
+/// Checks before the image library allocates or prints messages of its own: empty, or the end of a
+/// sentence about the error. `format` is imageFormatOf's. EXR files may have
 /// `maxTexels` texels and 64 channels; the other formats' sizes are left to the caller.
 std::string imageDamage(const std::string& format, const std::string& bytes, uint64_t maxTexels);
 

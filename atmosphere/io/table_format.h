@@ -1,4 +1,4 @@
-// What the writer and the reader of table files share.
+// Code that the writer and the reader of table files share.
 #pragma once
 
 #include <alpenglow/io/table_file.h>

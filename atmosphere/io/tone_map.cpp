@@ -24,7 +24,7 @@ std::vector<float> litLuminances(const LinearImage& image) {
   return luminances;
 }
 
-// A number in [0, 1) that depends on the place alone, and shows no pattern to the eye.
+// A number in [0, 1) that depends on the pixel's place alone, without a visible pattern.
 float ditherAt(uint32_t x, uint32_t y, uint32_t channel) {
   uint32_t h = x * 0x9E3779B1u ^ y * 0x85EBCA77u ^ channel * 0xC2B2AE3Du;
   h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
@@ -45,7 +45,7 @@ float mapTone(float value, ToneMap toneMap) {
   return tone::alpenglowToneLinear(value);
 }
 
-// The ends are kept apart from the dither: black and white stay what they are. NaN is black.
+// Black and white are not dithered. NaN becomes black.
 uint8_t encoded(float value, float dither) {
   if (value >= 1.0f) return 255;
   if (!(value > 0.0f)) return 0;

@@ -15,7 +15,7 @@ M makeMedium(const Parameters& p) {
     return v;
   };
   M m{};
-  // What is absent must not be the smaller scale height, by which segments are split.
+  // An absent constituent must not have the smaller scale height, by which rays are split.
   m.rayleighScaleHeight = m.mieScaleHeight = static_cast<Real>(p.topRadius_m - p.bottomRadius_m);
   m.absorptionHalfWidth = Real(1);
   if (p.rayleigh.present) {

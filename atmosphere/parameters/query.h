@@ -1,5 +1,5 @@
 // Where the segment of a probe query begins and ends, decided once, in double, for the tables and
-// for the reference alike. The rules are those of docs/file-formats.md, "Probe files".
+// for the reference alike. The rules are those of docs/file-formats.md, "Queries and answers".
 #pragma once
 
 #include <alpenglow/query.h>
@@ -8,8 +8,8 @@
 
 namespace alpenglow {
 
-/// A ray query, resolved. `ray` is the part of the view ray inside the atmosphere; the segment
-/// asked for is its first `length` metres.
+/// A ray query, resolved. `ray` is the part of the view ray inside the atmosphere; the query's
+/// segment is its first `length` metres.
 struct ResolvedQuery {
   physics_f64::Ray ray;
   double length = 0.0;        ///< 0 where there is no atmosphere along the segment.

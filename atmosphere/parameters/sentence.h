@@ -1,4 +1,4 @@
-// Sentences for people, without heap or locale, so that what must not throw can write them.
+// Diagnostic sentences, made without heap or locale, for code that must not throw.
 #pragma once
 
 #include <alpenglow/types.h>
@@ -60,7 +60,7 @@ inline Status report(const DiagnosticSink& sink, Status status, const char* text
   return report(sink, status, Sentence() << text);
 }
 
-/// Of a function that was given null where it needs a place for its answer, or an array.
+/// The sentence of a function that got null for its result or for an array.
 inline Status reportNull(const DiagnosticSink& sink, const char* function, const char* argument) {
   return report(sink, Status::InvalidArgument,
                 Sentence() << function << " got null for " << argument << ", but needs it.");

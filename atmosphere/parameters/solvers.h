@@ -1,18 +1,17 @@
-// What kind of solver a value is, and its name in sentences.
+// Kinds of solvers, and their names in sentences.
 #pragma once
 
 #include <alpenglow/tables.h>
 
 namespace alpenglow {
 
-/// The simpler models.
+/// Whether a solver is a simpler model.
 constexpr bool isModel(Solver solver) { return solver > Solver::Standard; }
-/// Those whose views may look into a sky-view LUT.
+/// Whether views of a solver may have a sky-view LUT.
 constexpr bool hasSkyViewLut(Solver solver) {
   return !isModel(solver) || solver == Solver::Hillaire;
 }
-/// Those whose rays take TableSizes::stepCount points, and how many by default; 0: not of this
-/// solver.
+/// Default of TableSizes::stepCount, the points on a ray; 0: the solver doesn't use it.
 constexpr uint32_t defaultStepCount(Solver solver) {
   return solver == Solver::ONeil ? 10 : solver == Solver::Hillaire ? 32 : 0;
 }

@@ -1,6 +1,6 @@
-// Light of the atmosphere between a frame's camera and whatever it sees, at all distances, and the
-// dispatch that fills it: shaders/glsl/physics/aerial_perspective_lut.glsl says what it holds. Of
-// Solver::Moments.
+// The aerial-perspective LUT: light of the atmosphere between a frame's camera and any point in
+// view, and the dispatch that fills it. shaders/glsl/physics/aerial_perspective_lut.glsl explains
+// its contents. Of Solver::Moments.
 #pragma once
 
 #include "atmosphere/camera/camera_math.h"
@@ -8,10 +8,10 @@
 
 namespace alpenglow::passes {
 
-/// How a camera's rays lie in an aerial-perspective LUT.
+/// The mapping of a camera's rays to an aerial-perspective LUT.
 physics_f64::AerialView aerialView(const Parameters& parameters, double altitude);
 
-/// What shaders/glsl/common/aerial_perspective_lut.glsl wants to know of a draw.
+/// Inputs of shaders/glsl/common/aerial_perspective_lut.glsl for a draw.
 struct AerialPerspectiveLookup {
   physics_f64::AerialView view;
   double up[3];          ///< The camera's vertical.
@@ -29,10 +29,10 @@ class AerialPerspectiveLut {
   Status make(EffectFlags disabledEffects, VkPipelineStageFlags2 readers);
   void destroy(uint64_t frame) { lut_.destroy(frame); }
   bool made() const { return lut_.made(); }
-  /// Of each of its images, for a view without these effects.
+  /// Extent of each image, for a view with these disabled effects.
   static VkExtent3D extentFor(EffectFlags disabledEffects);
 
-  /// Whether it holds what this draw looks into.
+  /// Whether it is up to date for this draw.
   bool current(const Tables& tables, const FrameState& draw) const;
   Status record(VkCommandBuffer commands, const Tables& tables, const FrameState& draw);
   Lut& lut() { return lut_; }

@@ -11,7 +11,7 @@ namespace alpenglow::passes {
 Status createAerialPerspectiveSetLayout(engine::Device& device, VkShaderStageFlags stages,
                                         VkDescriptorSetLayout* out);
 
-/// A pool with one set, of the volume's images.
+/// A pool with one set, of the LUT's images.
 Status createAerialPerspectiveSet(tables::Resources& resources, const AerialPerspectiveLut& volume,
                                   VkDescriptorSetLayout layout, VkDescriptorPool* pool,
                                   VkDescriptorSet* out);

@@ -21,8 +21,8 @@ void place(const CasterTarget& target, VkCommandBuffer commands, const double or
                                        sizeof rows, rows);
 }
 
-// Only a caster's origin can be seen here; its vertices may lie beside it, as those of a map about
-// the map's origin. Very far from the bounds the origin is of another frame or in another unit.
+// Only a caster's origin is known here; its vertices may lie beside it, as those of a terrain about
+// the terrain's origin. An origin very far from the bounds is in another frame or another unit.
 void warnOutside(const CasterTarget& target, const double origin_m[3]) {
   const CasterSet& casters = *target.casters;
   if (casters.outsideReported == nullptr || *casters.outsideReported) return;

@@ -15,12 +15,12 @@ struct CasterTarget {
   const CasterSet* casters = nullptr;
 };
 
-/// Push constants of place.glsl.
+/// Push constants of shaders/glsl/passes/caster_placement.glsl.
 inline constexpr VkPushConstantRange kPlaceRange = {VK_SHADER_STAGE_VERTEX_BIT, 0, 48};
 
-/// Sets viewport and scissor, binds, places casters at the world's origin until the host says
-/// otherwise, and calls it. `clipFromOrigin`: column-major, from metres off `origin_m`, both in the
-/// planet frame.
+/// Sets viewport and scissor, binds the pipeline, places casters at the world's origin until the
+/// host calls placeCaster, and calls the host's function. `clipFromOrigin`: column-major, from
+/// metres off `origin_m`, both in the planet frame.
 void drawCasters(VkCommandBuffer commands, const CasterTarget& target, LightShaftMethod method,
                  const double origin_m[3], const double clipFromOrigin[16], VkPipeline pipeline,
                  const VkRect2D& area, const CasterSet& casters);

@@ -1,4 +1,4 @@
-// What a host may ask of light shafts.
+// Checks of LightShaftDesc, and of the scene depth.
 #include <algorithm>
 #include <cmath>
 

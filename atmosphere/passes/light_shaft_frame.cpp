@@ -51,7 +51,7 @@ ShadowMapPlace placeShadowMap(const PlanetBox& bounds, const double sun[3], uint
   ShadowMapPlace map;
   std::copy_n(bounds.center_m, 3, map.center);
   std::copy_n(sun, 3, map.sun);
-  // Rows along the horizon: a low sun sees a wide and low box.
+  // Rows along the horizon: seen from a low sun the box is wide and low.
   const double radius = std::sqrt(dot(bounds.center_m, bounds.center_m));
   double up[3] = {bounds.center_m[0] / radius, bounds.center_m[1] / radius,
                   bounds.center_m[2] / radius};
@@ -160,8 +160,7 @@ LightShaftFrame makeLightShaftFrame(const Parameters& parameters, const LightSha
   store(frame.aerialSkyView, skyView, 1.0, lookup.view.extinction_);
   store(frame.aerialSun, lookup.sunAzimuth, 1.0, lookup.view.startHeight);
   frame.aerialHeight[0] = static_cast<float>(lookup.view.height);
-  // A quarter of a cell's width along the beam, and the light-volume mesh of a lit slope hides
-  // under the slope.
+  // A quarter of a cell's width along the beam hides the light-volume mesh under lit slopes.
   frame.aerialHeight[1] =
       static_cast<float>(0.25 * std::max(map.halfU, map.halfV) / half * meshStep(desc));
   return frame;

@@ -1,4 +1,4 @@
-// Where the shadow map lies, and what a frame's shaders know of it and of the camera.
+// Where the shadow map lies, and the uniform block of a frame's shaders.
 #pragma once
 
 #include "atmosphere/camera/picture.h"
@@ -11,11 +11,11 @@ struct ShadowMapPlace {
   double u[3] = {}, v[3] = {}, sun[3] = {};          ///< Orthogonal unit vectors.
   double halfU = 1.0, halfV = 1.0, halfDepth = 1.0;  ///< Metres.
 };
-/// The least box; `texels` on a side, of which two at each edge are left free.
+/// The smallest box; `texels` on a side, of which two at each edge are left free.
 ShadowMapPlace placeShadowMap(const PlanetBox& bounds, const double sun[3], uint32_t texels);
 
-/// std140 of AlpenglowLightShaftFrame in shaders/glsl/alpenglow/light_shafts.glsl, which says what
-/// each is.
+/// std140 of AlpenglowLightShaftFrame in shaders/glsl/alpenglow/light_shafts.glsl, which
+/// explains each member.
 struct LightShaftFrame {
   float clipFromCamera[16];
   float upAltitude[4];
@@ -37,7 +37,7 @@ struct LightShaftFrame {
 };
 static_assert(sizeof(LightShaftFrame) == 320, "As std140 lays it out");
 
-/// As the shaders count methods: alpenglow/light_shafts.glsl.
+/// The number of a method in shaders: alpenglow/light_shafts.glsl.
 constexpr uint32_t methodIndex(LightShaftMethod method) {
   return static_cast<uint32_t>(method) - 1;
 }
@@ -48,7 +48,7 @@ inline constexpr uint32_t kLightShaftBlock = 16;
 constexpr uint32_t meshStep(const LightShaftSettings& desc) {
   return (desc.shadowMapSize + desc.meshSize - 1) / desc.meshSize;
 }
-/// Blocks on a side of it.
+/// Blocks on a side of the light-volume mesh.
 constexpr uint32_t blocksAcross(const LightShaftSettings& desc) {
   const uint32_t step = meshStep(desc);
   return ((desc.shadowMapSize - 2 + step) / step - 1) / kLightShaftBlock + 1;
@@ -61,9 +61,9 @@ LightShaftFrame makeLightShaftFrame(const Parameters& parameters, const LightSha
 /// Three rows that take local positions of a caster (placeCaster) to metres from `eye`.
 void rowsFromEye(const double eye[3], const double origin[3], const float rotation[9],
                  float rows[3][4]);
-/// Onto the map, from metres off its centre: column-major, to clip space.
+/// From metres off the map's centre to clip space of the shadow map; column-major.
 void clipFromMap(const ShadowMapPlace& map, double matrix[16]);
-/// Or onto the map: coordinates in [-1, 1], and depth.
+/// Three rows to clip space of the shadow map: coordinates in [-1, 1], and depth.
 void rowsOnMap(const ShadowMapPlace& map, const double origin[3], const float rotation[9],
                float rows[3][4]);
 

@@ -164,7 +164,7 @@ Status LightShaftPass::makeSet() {
   if (status == Status::Ok)
     status = engine::allocateSets(device_, pool_, &setLayout_, 1, "Alpenglow shafts", &set_);
   if (status != Status::Ok) return status;
-  // A shader that asks for any method reads all of them: what a method lacks is another image.
+  // Shaders declare the bindings of all methods: another image fills those that a method lacks.
   const VkImageView map = mapped() ? map_.depth().view : targets_[0].view;
   const VkImageView sums = targetCount_ > 0 ? targets_[0].view : map;
   const VkImageView bounds = targetCount_ > 1 ? targets_[1].view : sums;
@@ -230,7 +230,7 @@ Status LightShaftPass::makePipeline(bool fromLut, VkPipeline* out) {
   desc.depthFormat = desc_.sceneDepthFormat;
   desc.stencil = false;
   desc.depthTest = true;
-  desc.depthClamp = true;  // what lies beyond the far plane shadows the sky
+  desc.depthClamp = true;  // casters beyond the far plane shadow the sky
   desc.depthCompare = reversed ? VK_COMPARE_OP_GREATER_OR_EQUAL : VK_COMPARE_OP_LESS_OR_EQUAL;
   return engine::createGraphicsPipeline(device_, desc, out);
 }

@@ -1,4 +1,4 @@
-// The pass that finds a frame's shadows in the atmosphere.
+// The pass that computes a frame's shadows in the atmosphere.
 #pragma once
 
 #include "atmosphere/passes/shadow_map.h"
@@ -27,7 +27,7 @@ class LightShaftPass {
   void destroy(uint64_t frame);
   bool made() const { return setLayout_ != VK_NULL_HANDLE; }
 
-  /// Before anything of a frame is recorded: makes what follows the extent of the scene's depth.
+  /// Before anything of a frame is recorded: makes what depends on the extent of the scene's depth.
   Status resize(VkExtent2D scene);
   Status recordShadowMap(VkCommandBuffer commands, const double sun[3], const CasterSet& casters);
   /// The frame has been checked. `lut`: the set of its aerial-perspective LUT, or null.
@@ -63,7 +63,7 @@ class LightShaftPass {
   Status makePipeline(bool fromLut, VkPipeline* out);
   void dropTargets(uint64_t frame);
   Status updateFrame(VkCommandBuffer commands, const LightShaftFrame& frame);
-  /// Which blocks of the light-volume mesh this frame sees.
+  /// Culls the blocks of the light-volume mesh.
   Status cullBlocks(VkCommandBuffer commands);
   void drawSurface(VkCommandBuffer commands, const FrameState& draw, VkPipeline pipeline);
   Status drawShadows(VkCommandBuffer commands, const Tables& tables, const FrameState& draw,

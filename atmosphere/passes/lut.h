@@ -1,5 +1,5 @@
-// What the LUTs of a view share: images that one dispatch fills from the tables, and the memory of
-// what they were filled for.
+// What the LUTs of a view share: images that one dispatch fills from the tables, and the inputs
+// that they were filled for.
 #pragma once
 
 #include "atmosphere/tables/table_set.h"
@@ -11,10 +11,9 @@ struct LutDesc {
   const char* name = "";
   VkImageType type = VK_IMAGE_TYPE_2D;
   VkExtent3D extent = {};
-  uint32_t count = 1;  ///< Images.
-  uint32_t bindings =
-      1;  ///< Storage images of set 1; the last image stands for those beyond count.
-  uint32_t constantBytes = 0;  ///< Of the push constants, at most Lut::kMostConstants.
+  uint32_t count = 1;     ///< Images.
+  uint32_t bindings = 1;  ///< Storage images of set 1; the last image fills those beyond count.
+  uint32_t constantBytes = 0;  ///< At most Lut::kMostConstants.
   TableFormat format = TableFormat::Half;
   VkPipelineStageFlags2 readers = 0;
 };
@@ -34,12 +33,12 @@ class Lut {
   engine::Device& device() const { return device_; }
   bool made() const { return pipeline_ != VK_NULL_HANDLE; }
 
-  /// Whether the images hold what these constants make of these tables.
+  /// Whether the images were filled from these tables with these constants.
   bool current(const Tables& tables, const void* constants) const;
   /// Fills the images unless they are current, and leaves them readable.
   Status record(VkCommandBuffer commands, const Tables& tables, const void* constants,
                 uint32_t groupsX, uint32_t groupsY);
-  /// What was recorded in that frame never executes.
+  /// Commands of that frame never execute.
   void abandon(uint64_t frame);
 
   const engine::Image& image(uint32_t i) const { return images_[i < count_ ? i : count_ - 1]; }
@@ -64,7 +63,7 @@ class Lut {
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   VkPipeline pipeline_ = VK_NULL_HANDLE;
   uint64_t tablesId_ = 0;  ///< 0: the images hold nothing.
-  uint64_t frame_ = 0;     ///< In which they were recorded.
+  uint64_t frame_ = 0;     ///< The frame in which they were recorded.
   unsigned char constants_[kMostConstants] = {};
 };
 

@@ -34,7 +34,7 @@ Status checkQuery(const engine::Device& device, uint32_t index, const ProbeQuery
   }
   constexpr double kPi = 3.14159265358979323846;
   const bool ray = query.kind == QueryKind::Ray;
-  // Of an irradiance, what belongs to a ray does nothing: 0.
+  // The members of a ray must be 0 for an irradiance: they have no effect.
   const struct {
     const char* name;
     double value, least, most;

@@ -11,7 +11,7 @@
 
 namespace alpenglow::passes {
 
-/// Twin of Query in shaders/glsl/passes/probe.comp.
+/// Mirrors Query in shaders/glsl/passes/probe.comp.
 struct PreparedQuery {
   float h, mu, muS, nu;
   float d, extent, muSGround;
@@ -37,7 +37,7 @@ class ProbePass {
   Status makeLayouts();
   Status pipeline(const TableDesc& desc, VkPipeline* out);
 
-  /// What one call needs until its frame completes.
+  /// Objects of one call until its frame completes.
   struct Call {
     engine::Buffer queries;
     engine::MemoryBlock block;
@@ -52,7 +52,7 @@ class ProbePass {
   VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE;
   std::mutex mutex_;
-  /// By what the tables hold; made when first used.
+  /// By kind of tables; made when first used.
   std::map<std::tuple<Solver, MieStorage, EffectFlags>, VkPipeline> pipelines_;
 };
 

@@ -91,7 +91,7 @@
 namespace alpenglow::passes {
 namespace {
 
-/// What tables hold, by which every shader that reads them is compiled.
+/// The kinds of tables; every shader that reads tables is compiled for each.
 enum Kind : uint32_t { kFull, kMolecules, kSingle, kStandard };
 
 Kind kindOf(Solver solver, EffectFlags disabledEffects) {
@@ -108,7 +108,7 @@ Kind kindOf(Solver solver, EffectFlags disabledEffects) {
 /// Of every solver.
 #define ALPENGLOW_SHADERS(name) ALPENGLOW_MOMENT_SHADERS(name), ALPENGLOW_SHADER(name##Standard)
 
-/// What a simpler model has compiled; without shafts, and without a LUT unless it is Hillaire's.
+/// Shaders of a simpler model: no light shafts, and no LUT except for Hillaire's.
 struct BaselineShaders {
   engine::Shader sky, skyMap, aerialPerspective, probe;
 };

@@ -1,4 +1,4 @@
-// Which compiled shader reads which tables: the only place that knows the shaders' names.
+// The compiled shader for each kind of tables: the only place with the shaders' names.
 #pragma once
 
 #include <alpenglow/tables.h>

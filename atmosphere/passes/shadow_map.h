@@ -1,4 +1,4 @@
-// The shadow map: depth of what its beam meets first.
+// The shadow map: depth of the first caster along the sun's beam.
 #pragma once
 
 #include "atmosphere/passes/caster_pass.h"
@@ -15,14 +15,14 @@ class ShadowMap {
   Status make(const LightShaftSettings& desc);
   void destroy(uint64_t frame);
 
-  /// Whether it holds these casters under this sun: their version is not 0 and the same, sun and
-  /// bounds are but for rounding.
+  /// Whether it holds these casters under this sun: same version, not 0; same sun and bounds,
+  /// except for rounding.
   bool current(const double sun[3], const CasterSet& casters) const;
   /// Whether it was drawn for this sun.
   bool drawnFor(const double sun[3]) const;
   /// Leaves the image readable by vertex and fragment shaders.
   Status record(VkCommandBuffer commands, const double sun[3], const CasterSet& casters);
-  /// What was recorded in that frame never executes.
+  /// Commands of that frame never execute.
   void abandon(uint64_t frame) {
     if (frame_ >= frame) recorded_ = false;
   }

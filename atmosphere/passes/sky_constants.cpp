@@ -1,4 +1,4 @@
-// What a frame's camera and sun become on the GPU, and the checks of what the host gave.
+// Push constants of a frame's camera and sun, and checks of the host's values.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

@@ -9,7 +9,7 @@
 
 namespace alpenglow::passes {
 
-/// Push constants of sky.frag: shaders/glsl/passes/sky.frag says what each is.
+/// Push constants of sky.frag: shaders/glsl/passes/sky.frag explains each member.
 struct SkyConstants {
   float upAltitude[4];
   float forwardPixel[4];
@@ -35,11 +35,11 @@ struct AerialPerspectiveConstants {
 };
 static_assert(sizeof(AerialPerspectiveConstants) == sizeof(SkyConstants), "Both share a layout");
 
-/// What light shafts give a picture: the set of alpenglow/light_shafts.glsl. A null layout: none.
+/// Light shafts of a picture: the set of alpenglow/light_shafts.glsl. A null layout: none.
 struct LightShaftSet {
   VkDescriptorSetLayout layout = VK_NULL_HANDLE;
   VkDescriptorSet set = VK_NULL_HANDLE;
-  uint32_t method = 0;  ///< As the shaders count: LightVolume 0, ShadowVolume 1, RayMarch 2.
+  uint32_t method = 0;  ///< methodIndex(): LightVolume 0, ShadowVolume 1, RayMarch 2.
   uint32_t stepCount = 0;
   float multipleLoss = 0.0f;
 };
@@ -56,7 +56,7 @@ SkyConstants makeSkyConstants(const Parameters& parameters, const PictureDesc& d
 AerialPerspectiveConstants makeAerialPerspectiveConstants(const Parameters& parameters,
                                                           const PictureDesc& desc,
                                                           const FrameState& draw);
-/// Whether parts can be cut for it: what checkDraw asks of a camera.
+/// Whether the viewport can be divided into parts: what checkDraw requires of a camera.
 bool drawable(Projection projection, const FrameState& draw);
 /// Ok, or a sentence that names the wrong field.
 Status checkDraw(const engine::Device& device, Projection projection, const FrameState& draw);
@@ -64,7 +64,7 @@ Status checkDepthRange(const engine::Device& device, Projection projection,
                        const DepthRange& range);
 /// A unit vector, or a sentence with its name.
 Status checkDirection(const engine::Device& device, const char* name, const double direction[3]);
-/// Ok, or a sentence when the draw's camera, or a part of it, sees what the view is without.
+/// Ok, or a sentence when a part of the draw shows an effect that the view has disabled.
 Status checkDrawnEffects(const engine::Device& device, const Parameters& parameters,
                          const PictureDesc& desc, const FrameState& draw);
 Status checkPartition(const engine::Device& device, const PictureDesc& desc,

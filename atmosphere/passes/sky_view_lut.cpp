@@ -15,8 +15,8 @@ struct SkyViewLutConstants {
   float altitude, muS, horizon, span, bend;
 };
 
-/// Texels by quality, Draft ... Ultra: no finer than what the tables hold is right. Whole groups;
-/// half of the columns is used inside the atmosphere. Errors of each: docs/luts.md.
+/// Texels by quality, Draft ... Ultra, matched to the accuracy of the tables. Whole groups; half of
+/// the columns is used inside the atmosphere. Errors of each: docs/luts.md.
 constexpr VkExtent3D kMomentLutExtents[] = {
     {48, 64, 1}, {64, 96, 1}, {128, 160, 1}, {128, 160, 1}, {128, 160, 1}};
 static_assert(std::size(kMomentLutExtents) == static_cast<size_t>(Quality::Ultra));

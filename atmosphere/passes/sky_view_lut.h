@@ -1,5 +1,5 @@
-// The sky-view LUT: what the camera of a frame looks into, for all its rays; light along rays
-// (Moments), or S at its altitude (Standard). After Hillaire 2020.
+// The sky-view LUT of a frame's camera, for all its rays: light along rays (Moments), or S at its
+// altitude (Standard). After Hillaire 2020.
 #pragma once
 
 #include "atmosphere/camera/camera_math.h"
@@ -11,7 +11,7 @@ namespace alpenglow::passes {
 class SkyViewLut {
  public:
   explicit SkyViewLut(tables::Resources& resources) : lut_(resources) {}
-  /// For tables of this completed description, and a view without these effects.
+  /// For tables of this completed description, and a view with these disabled effects.
   Status make(const TableDesc& desc, EffectFlags disabledEffects, VkPipelineStageFlags2 readers);
   void destroy(uint64_t frame) { lut_.destroy(frame); }
   bool made() const { return lut_.made(); }
@@ -22,14 +22,14 @@ class SkyViewLut {
   /// Whether there is one for the draw's camera: Moments always, else inside the atmosphere.
   static bool possible(const Tables& tables, const FrameState& draw);
 
-  /// Whether it holds what this draw looks into.
+  /// Whether it is up to date for this draw.
   bool current(const Tables& tables, const FrameState& draw) const;
   Status record(VkCommandBuffer commands, const Tables& tables, const FrameState& draw);
   Lut& lut() { return lut_; }
   const Lut& lut() const { return lut_; }
 
-  /// What needs no phase function, or C_*; single Mie scattering without its own, or C_M; when
-  /// packed the first again, so that each binding has an image. Hillaire's has one: all light.
+  /// Moments: ln of radiance, and the share of Mie in it. Standard: C_*, and C_M (when packed the
+  /// first image again, so that each binding has one). Hillaire: one image with all light.
   const engine::Image& image() const { return lut_.image(0); }
   const engine::Image& mieImage() const { return lut_.image(1); }
   /// Columns that skyViewGrid counts, and rows.

@@ -1,4 +1,4 @@
-// Whether a frame shows something that its view was made without.
+// Whether a frame shows an effect that its view has disabled.
 #include "atmosphere/passes/sky_pass.h"
 
 namespace alpenglow::passes {

@@ -1,4 +1,4 @@
-// What a view costs, computed from its description.
+// Cost of a view, computed from its description.
 #pragma once
 
 #include <alpenglow/plan.h>
@@ -7,9 +7,9 @@
 
 namespace alpenglow::passes {
 
-/// Images and pipelines that createView makes, and what recordLuts dispatches for a frame, for a
-/// view of such tables; of a device that stores and filters 32-bit floats. `tables` is completed.
-/// Light shafts have costs of their own.
+/// Images and pipelines that createView makes, and dispatches of recordLuts for a frame, for a view
+/// of such tables on a device that stores and filters 32-bit floats. `tables` is completed.
+/// Light shafts are not included.
 PlanCost viewCost(const TableDesc& tables, const PictureDesc& view);
 
 /// The images, at most kMaxViewImages of them; returns how many.

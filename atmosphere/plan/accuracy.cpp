@@ -1,4 +1,4 @@
-// Quality level and orders from the wanted error, by what was measured; the other choices in words.
+// Quality level and orders from the wanted error, by measured tables; the other choices in words.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -12,7 +12,7 @@ constexpr uint32_t kLevels = 5, kBands = 5;
 constexpr const char* kNames[kLevels] = {"draft", "low", "medium", "high", "ultra"};
 
 /// 95th percentiles by level and band (day, low, civil, nautical, astronomical), per cent:
-/// docs/accuracy.md. A level is credited with no less than a finer one has.
+/// docs/accuracy.md. A level counts with at least the error of the finer ones.
 struct Measured {
   const char* medium;
   double percent[kLevels][kBands];
@@ -37,8 +37,8 @@ constexpr Measured kNarrow = {"haze of g up to 0.88",
                                {0.64, 1.44, 3.01, 4.92, 4.73},
                                {0.49, 0.93, 2.80, 4.33, 4.55},
                                {0.49, 0.75, 1.98, 4.33, 4.30}}};
-/// Airs of which only medium was measured (haze93; thick5 and mie-only), or none like it: haze85's
-/// times the worst ratio of these to it, band by band.
+/// Media of which only Quality::Medium was measured (haze93; thick5 and mie-only), or none like it:
+/// haze85's errors times the worst ratio of these to haze85's, band by band.
 constexpr double kUnknown[kBands] = {3.7, 3.2, 2.1, 2.3, 2.4};
 /// The sky-view LUT's own share (docs/luts.md).
 constexpr double kLut[kLevels] = {0.64, 0.27, 0.09, 0.09, 0.09};
@@ -68,7 +68,7 @@ Class classOf(const Parameters& parameters) {
 double errorOf(const Parameters& parameters, const Plan& plan, uint32_t level) {
   const Class medium = classOf(parameters);
   const SunRange elevations = widened(parameters, plan.request);
-  // What can't be seen has no error.
+  // Invisible light has no error.
   const bool dark = isOn(plan, Effect::Twilight) || isOn(plan, Effect::Night);
   const double from =
       dark ? elevations.from : std::max(elevations.from, std::min(0.0, elevations.to));
@@ -127,7 +127,7 @@ void describeDepths(Plan* plan) {
 void describeAltitude(const Parameters& parameters, Plan* plan) {
   parameters::Sentence value, why;
   value << "0 to " << parameters.topRadius_m - parameters.bottomRadius_m << " m";
-  why << "Light on a ray comes from air of every height, so tables hold all of it.";
+  why << "Light on a ray comes from all altitudes, so tables hold all of them.";
   addChoice(plan, "altitude", value, why);
 }
 
@@ -147,7 +147,7 @@ void describeOrders(uint32_t solved, Plan* plan) {
     why << "The default of the solver standard.";
   } else {
     value << "all";
-    why << "In air of this depth " << solved
+    why << "In a medium of this depth " << solved
         << " orders are solved one by one; what follows is a geometric series.";
   }
   addChoice(plan, "orders", value, why);
@@ -211,7 +211,7 @@ void setQuality(const Parameters& parameters, Quality quality, Plan* plan) {
 
 void decideQuality(const Parameters& parameters, Plan* plan) {
   const TableDesc& base = plan->request.tables;
-  plan->errorMet = true;  // Of other solvers none is expected.
+  plan->errorMet = true;  // No error is predicted for other solvers.
   if (base.solver != Solver::Moments) return;
   if (base.quality != Quality::Default) return setQuality(parameters, base.quality, plan);
   // Without a target at most the default level.

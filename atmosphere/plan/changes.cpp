@@ -40,7 +40,7 @@ bool coversWishes(const Plan& plan, const PlanRequest& request) {
     const PlanChoice& choice = plan.choices[i];
     const Force force = request.effects[i];
     if (force == plan.request.effects[i]) continue;
-    // What was turned off by hand may be wanted as soon as it isn't.
+    // A forced-off effect is needed again as soon as it is no longer forced.
     const bool lacks = !choice.on && (force == Force::On || choice.forced);
     if (lacks || (choice.on && force == Force::Off)) return false;
   }
@@ -53,7 +53,7 @@ bool sameLight(const LightDesc& a, const LightDesc& b) {
                                         std::end(a.irradiance.value), b.irradiance.value);
 }
 
-/// What tables the host asks for, but for what a plan decides where it isn't given.
+/// The tables that the host requests, without the members that a plan decides.
 bool sameShape(const TableDesc& a, const TableDesc& b) {
   static_assert(std::has_unique_object_representations_v<TableSizes>);
   return a.keepOrders == b.keepOrders && a.cpuQueries == b.cpuQueries &&
@@ -138,7 +138,7 @@ RecreateFlags comparePlans(const Plan& current, const Plan& next, const Diagnost
   const char* view = viewChange(current, next);
   if (view == nullptr) view = lightShaftChange(current, next);
   const TableDesc &a = current.tables, &b = next.tables;
-  // A view is of tables of one kind.
+  // A view is made for one kind of tables.
   const bool other = a.disabledEffects != b.disabledEffects || a.solver != b.solver ||
                      a.mie != b.mie || plan::levelOf(a.quality) != plan::levelOf(b.quality);
   RecreateFlags flags = 0;

@@ -1,4 +1,4 @@
-// Sums of costs, and what follows of them: the part of prices that asks no other room.
+// Sums of costs, and what follows from them: the part that needs no other folder.
 #include <iterator>
 
 #include "atmosphere/plan/rules.h"

@@ -48,7 +48,7 @@ class Decider {
     copyReason(reason, &choice);
   }
 
-  // What the host decides beats what is found here.
+  // Choices that the host forces override the rules.
   void set(Effect effect, bool on, const parameters::Sentence& reason) {
     const Force force = request_.effects[static_cast<uint32_t>(effect)];
     parameters::Sentence why;
@@ -68,7 +68,7 @@ class Decider {
     }
   }
 
-  // Whatever the host says, it can't be.
+  // Impossible even if the host forces it.
   void impossible(Effect effect, const char* reason) {
     write(effect, false, false, parameters::Sentence() << reason);
   }
@@ -88,8 +88,9 @@ class Decider {
     set(effect, counts, why);
   }
 
-  // Of light of two events against that of one: the second event meets light from all around, of
-  // ways as long as the logarithm of the longest; in twilight it comes where the first can't.
+  // Light of two events relative to that of one: the second event receives light from all around,
+  // along paths that grow like the logarithm of the longest; in twilight it lights what the first
+  // can't.
   void multiple() {
     parameters::Sentence why;
     const double ways = 1.0 + std::log1p(medium_.longest / std::max(medium_.scattering, 1e-12));
@@ -192,7 +193,7 @@ class Decider {
     if (!request_.casters) {
       why << "Nothing casts shadows.";
     } else if (lit) {
-      why << "Casters stand in air that the sun lights from up to " << degrees(range_.to)
+      why << "Casters stand in a medium that the sun lights from up to " << degrees(range_.to)
           << " degrees.";
     } else {
       why << "The sun stays below " << degrees(lowest)
@@ -222,7 +223,7 @@ class Decider {
     set(Effect::SpaceViews, high, why);
   }
 
-  // The lowest sun whose light is seen: only where the table of brightness holds, low in the
+  // The lowest sun whose light is visible: only where the table of brightness is valid, low in the
   // atmosphere.
   double visible() const {
     const bool low = request_.altitudeTo_m > 0.0 && request_.altitudeTo_m <= 3000.0;
@@ -263,8 +264,8 @@ class Decider {
   SunRange range_;
 };
 
-// Sun elevations of the tables: those of the request, less what can't be seen, and more where an
-// effect is on all the same.
+// Sun elevations of the tables: those of the request, minus those without visible light, plus those
+// of effects that are on anyway.
 SunRange tableSuns(const Parameters& parameters, const Plan& plan) {
   const SunRange all = widened(parameters, plan.request);
   double from = all.from;

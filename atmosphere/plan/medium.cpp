@@ -1,4 +1,4 @@
-// What the rules need to know of a medium.
+// Properties of a medium that the rules need.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,13 +25,13 @@ double leastPhase(double g) {
 }
 double mostPhase(double g) { return std::max(phase(g, 1.0), phase(g, -1.0)); }
 
-// A tangent ray at the ground through a density exp(-h / H), over the zenith's depth; to and fro,
-// since light comes in on such a way and goes on along another.
+// Depth of a tangent ray at the ground through a density exp(-h / H), relative to the zenith's;
+// twice, since light arrives along one such path and leaves along another.
 double longestWay(double radius_m, double scaleHeight_m) {
   return 2.0 * std::max(1.0, std::sqrt(2.0 * kPi * radius_m / scaleHeight_m));
 }
 
-// Most of the light of `a` against that of `b` at any altitude, by their scattering and phase.
+// Greatest ratio of the light of `a` to that of `b` at any altitude, by their scattering and phase.
 double mostShare(const Spectrum& a, double heightA, double mostA, const Spectrum& b, double heightB,
                  double leastB, double thickness) {
   double most = 0.0;

@@ -1,4 +1,4 @@
-// What a host may ask of a plan.
+// Checks of PlanRequest.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

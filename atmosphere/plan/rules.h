@@ -1,5 +1,5 @@
 // The rules by which a plan is made: docs/plan.md. Each fills in its part of a plan and the
-// reasons; what that costs is computed above (atmosphere/api/plan.cpp).
+// reasons; atmosphere/api/plan.cpp computes the cost.
 #pragma once
 
 #include <alpenglow/plan.h>
@@ -10,24 +10,24 @@ namespace alpenglow::plan {
 
 inline constexpr double kDegree = 3.14159265358979323846 / 180.0;
 
-/// What the rules need to know of a medium. Bounds, not values: an effect is disabled only where
+/// Properties of a medium that the rules need. Bounds, not values: an effect is disabled only where
 /// its upper bound is below the error target.
 struct MediumTraits {
   double thickness_m = 0.0;  ///< From the ground to the top.
   double dipOfTop = 0.0;     ///< Radians by which the top passes into the planet's shadow.
   double scattering = 0.0;   ///< Zenith optical depth of what scatters, in the worst channel.
-  double longest = 0.0;      ///< The longest way through it, as optical depth.
+  double longest = 0.0;      ///< Of the longest path through it, as optical depth.
   double albedo = 0.0;       ///< Of the ground, in the worst channel.
-  /// Most that leaving it out changes the light anywhere, as a share of that light.
+  /// Greatest relative change of light anywhere when the constituent is left out.
   double rayleighShare = 0.0, mieShare = 0.0, absorptionShare = 0.0;
-  double peakAsymmetry = 0.0;  ///< |g| of the aerosols, more without molecules to veil them.
-  bool likeEarth = false;      ///< As thin a shell: twilight is no brighter than measured there.
+  double peakAsymmetry = 0.0;  ///< |g| of the aerosols, higher without molecules to hide it.
+  bool likeEarth = false;      ///< The shell is as thin: twilight is no brighter than measured.
 };
 MediumTraits mediumTraits(const Parameters& parameters);
 
 /// Ok, or a sentence about the wrong field.
 Status checkRequest(const PlanRequest& request, parameters::Sentence* why);
-/// Its tables, which a bake would take, with what the rest of it asks for.
+/// Checks the request's tables, combined with the rest of the request, as a bake would.
 Status checkTables(const PlanRequest& request, parameters::Sentence* why);
 double wantedError(const PlanRequest& request);
 
@@ -35,10 +35,10 @@ double wantedError(const PlanRequest& request);
 struct SunRange {
   double from, to;
 };
-/// As the request has it; all of them where it doesn't say.
+/// The range of the request, or all elevations.
 SunRange sunRange(const PlanRequest& request);
-/// And seen from all places where light is asked for: as far as the horizon, from above the top of
-/// the atmosphere as far as the limb's far side.
+/// The same at all places where light is needed: as far as the horizon, from above the top of the
+/// atmosphere as far as the far side of the limb.
 SunRange widened(const Parameters& parameters, const PlanRequest& request);
 /// The lowest sun whose sky light may be seen at this exposure; 0: any.
 double lowestVisibleSun(const MediumTraits& medium, double brightest, double exposure);
@@ -60,7 +60,7 @@ inline bool drawsLightShafts(const Plan& plan) {
 /// Effects on or off, forced or not, and why.
 void decideEffects(const Parameters& parameters, Plan* plan);
 /// From the effects that are on: the disabled effects of tables and views, the range of sun
-/// elevations, the slice.
+/// elevations, the sky-view LUT.
 void applyEffects(const Parameters& parameters, Plan* plan);
 
 /// The lowest level that meets the error, by measured tables.
@@ -73,15 +73,15 @@ const char* levelName(Quality quality);
 void add(PlanCost* to, const PlanCost& more);
 /// Never below 0.
 PlanCost difference(const PlanCost& more, const PlanCost& less);
-/// Of the shadow map; one draw of casters and the light-volume mesh from
-/// tables and from an aerial-perspective LUT, and the culling of its blocks.
+/// Cost of the shadow map; one draw of casters; the pipelines of the light-volume mesh that read
+/// tables or an aerial-perspective LUT, and the culling of its blocks.
 PlanCost lightShaftCost(const Plan& plan);
-/// LightShaftDesc::shadowMapSize as it is left; images of the picture's size are the host's to
-/// tell.
+/// The default of LightShaftDesc::shadowMapSize. Images of the picture's size are not counted: only
+/// the host knows it.
 inline constexpr uint32_t kShadowMapSize = 2048;
 ImageInfo shadowMapImage();
 double bakeSeconds(const PlanRequest& request, const PlanCost& cost);
-/// And the time of a bake, and whether both keep within the budget.
+/// Sets the cost, the time of a bake, and whether both are within the budget.
 void setCost(const PlanCost& cost, Plan* plan);
 
 void copyReason(const parameters::Sentence& sentence, PlanChoice* choice);
@@ -94,8 +94,8 @@ inline bool isOn(const Plan& plan, Effect effect) {
 /// Appends a choice.
 PlanChoice* addChoice(Plan* plan, const char* name, const parameters::Sentence& value,
                       const parameters::Sentence& reason);
-/// With tables for a short range of sun elevations, fewer optical depths, unless the host gives
-/// their number: docs/moment-solver.md, "Nodes", has what it costs.
+/// For tables of a short range of sun elevations, fewer optical depths, unless the host gives their
+/// number: docs/moment-solver.md, "Nodes", has the effect on accuracy.
 void fitDepths(Plan* plan);
 inline constexpr uint32_t kFewDepthMu = 128, kFewDepthH = 64;
 /// All choices but the effects in words; `unbound` is the level that the error alone would have.

@@ -1,5 +1,6 @@
-// Columns of air along rays in closed form or from a table made once: what the path tracer uses
-// where single scattering integrates. Within 1e-6 of the adaptive integral, as a test has it.
+// Columns of the densities along rays in closed form or from a table made once: what the path
+// tracer uses where single scattering integrates. Within 1e-6 of the adaptive integral, as a test
+// has it.
 #pragma once
 
 #include <vector>
@@ -47,8 +48,8 @@ class Columns {
  public:
   explicit Columns(const Medium& medium);
 
-  /// From a point on upwards, through a top that isn't there (but for the absorption's): only
-  /// differences of two on one ray mean anything. mu >= 0.
+  /// From a point upwards, without a top (except for the absorption's): only differences of two on
+  /// one ray have a meaning. mu >= 0.
   Column upwards(double h, double mu) const;
 
   /// From a point inside the atmosphere to the top; a direction below the horizon answers for the

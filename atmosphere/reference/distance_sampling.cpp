@@ -7,7 +7,7 @@ namespace {
 
 using physics_f64::Spectrum;
 
-/// Sums below it have no reciprocal that can be trusted; what they stand for is nothing.
+/// Sums below it have no accurate reciprocal; they count as 0.
 constexpr double kNothing = 1e-250;
 constexpr double kGuided = 0.88, kUnguided = 0.117, kAnywhere = 0.003;
 
@@ -57,8 +57,8 @@ DistanceSampling::DistanceSampling(const Medium& medium, const LightGuide& guide
   }
   const bool reflects = surface.albedo != nullptr && sumOf(*surface.albedo) > 0.0;
   if (unguidedSum > kNothing) {
-    // The guide knows of no shadow: sunlight in the atmosphere before a mesh is less sure than its
-    // own.
+    // The guide ignores shadows: sunlight in the atmosphere before a mesh is less certain than on
+    // the mesh.
     const double least = surface.isMesh ? 0.2 : 0.02;
     const double all = guidedSum + surfaceLight;
     if (reflects) {

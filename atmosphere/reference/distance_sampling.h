@@ -1,4 +1,4 @@
-// Where along a ray the next event lies: drawn by what a rough solution says of the light there.
+// Samples where along a ray the next event lies, guided by a rough solution of the light there.
 #pragma once
 
 #include "atmosphere/reference/light_guide.h"
@@ -20,8 +20,8 @@ struct EndSurface {
   double cosSun = 0.0;
 };
 
-/// The density is linear between a ray's nodes. A part of it doesn't trust the guide, and a small
-/// one not even the densities, so that every point of the ray has its chance.
+/// The density is linear between a ray's nodes. One part of it ignores the guide, and a small
+/// part also the densities, so that every point of the ray may be drawn.
 class DistanceSampling {
  public:
   /// `counts`: what light of each channel, before this ray, counts for. `direct`: sunlight that

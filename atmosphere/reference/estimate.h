@@ -43,8 +43,8 @@ struct Task {
 /// A horizontal place over which the sun has this zenith cosine.
 Observer placeUnder(double h, double muS);
 
-/// The orders of a ray's answer after the first: its air, and the ground where it ends. `exact`:
-/// the answer of order 1.
+/// The orders of a ray's answer after the first: its inscattering, and the ground where it ends.
+/// `exact`: the answer of order 1.
 Task rayTask(const Medium& medium, const ProbeQuery& query, const ReferenceAnswer& exact,
              uint32_t orders);
 

@@ -13,9 +13,9 @@ constexpr double kDegree = kPi / 180.0;
 /// Sun angles crowd where twilight changes fastest: theta = 95 + 10 sinh(f) degrees.
 constexpr double kTwilight = 95.0 * kDegree;
 constexpr double kSpread = 10.0 * kDegree;
-/// Successive orders; what is beyond is like the last in shape.
+/// Successive orders; the orders beyond have the shape of the last.
 constexpr int kIterations = 4;
-/// What every cell of directions gets, of the whole: a rough solution may be wrong about any.
+/// Least share of a cell of directions: the rough solution may be wrong about any.
 constexpr float kDefence = 0.05f;
 
 }  // namespace

@@ -1,5 +1,5 @@
 // A rough solution of the whole light field, on a small grid of (altitude, sun zenith angle). It
-// only guides where the path tracer looks: wrong values cost time, never truth.
+// only guides the path tracer's sampling: wrong values cost time, not accuracy.
 #pragma once
 
 #include <cstdint>

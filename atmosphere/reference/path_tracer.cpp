@@ -9,7 +9,7 @@ using physics_f64::Medium;
 using physics_f64::Spectrum;
 
 constexpr double kPi = std::numbers::pi;
-/// A path goes on surely while it promises at least this share of the whole; below, by chance.
+/// A path always continues while it may contribute at least this share; below, by Russian roulette.
 constexpr double kSurvival = 0.3;
 constexpr double kLeastSurvival = 0.1;
 
@@ -182,8 +182,8 @@ PathTracer::Drawn PathTracer::drawInAtmosphere(const Path& path, const Hit& hit,
                                                PathSampler& sampler) const {
   const double g = medium_.mieAsymmetry;
   const GuideLobe guided(guide_.directionsAt(hit.h, hit.muS), hit.vertical, path.sun);
-  // Peaked phase functions keep most for themselves: a path through haze scatters many times, and
-  // each time a sample of theirs weighs the more the less they are trusted.
+  // Peaked phase functions are sampled most: a path through haze scatters many times, and their
+  // samples weigh the more the less often they are chosen.
   const double dust = 1.0 - rayleighShare;
   const double aureole = 0.15 * dust * directPart(light);
   const Lobes lobes(guided, path.sun, g, aureole, 0.45 * rayleighShare + 0.12 * dust);

@@ -22,12 +22,13 @@ struct Observer {
   Vector sun{0.0, 0.0, 1.0};
 };
 
-/// Opaque things in the atmosphere. They stop light and reflect it by Lambert's law on both sides.
+/// Opaque objects in the atmosphere. They block light and reflect it by Lambert's law on both
+/// sides.
 struct Scene {
   MeshRays meshes;
   std::vector<physics_f64::Spectrum> albedo;  ///< Of each mesh.
-  /// False: meshes let the sun's own light pass, and only that: what shadows do can be
-  /// distinguished from what the rest does.
+  /// False: meshes let direct sunlight pass, and nothing else: this separates the effect of shadows
+  /// from the rest.
   bool hidesSun = true;
 };
 
@@ -37,7 +38,7 @@ inline constexpr double kSurfaceGap = 1e-4;
 class PathTracer {
  public:
   /// `scene`: outlives the tracer; null for the bare planet, whose numbers it leaves as they are.
-  /// The rough solution knows nothing of it and only guides: all estimates remain unbiased.
+  /// The rough solution ignores the scene and only guides: all estimates remain unbiased.
   explicit PathTracer(const physics_f64::Medium& medium, const Scene* scene = nullptr);
   PathTracer(const PathTracer&) = delete;
   PathTracer& operator=(const PathTracer&) = delete;

@@ -1,5 +1,5 @@
-// Light along a view ray among opaque meshes: single scattering between exact shadows, and what
-// paths say of it, order by order. Rays are in the planet's frame, per unit solar irradiance.
+// Light along a view ray among opaque meshes: single scattering between exact shadows, and
+// path-traced multiple scattering. Rays are in the planet's frame, per unit solar irradiance.
 #pragma once
 
 #include "atmosphere/reference/estimate.h"
@@ -33,8 +33,8 @@ Estimate litScattering(const Medium& medium, const SceneRay& ray, double length,
 /// Per unit solar irradiance, with standard errors.
 struct SceneLight {
   RayEnd end;
-  Estimate single;    ///< Air light of order 1 along the ray.
-  Estimate multiple;  ///< Air light of all further orders, light from surfaces included.
+  Estimate single;    ///< Inscattering of order 1 along the ray.
+  Estimate multiple;  ///< Inscattering of all further orders, light from surfaces included.
   Estimate air;       ///< Their sum.
   Estimate surface;   ///< Radiance that leaves the surface at the ray's end, towards the ray.
 };

@@ -53,7 +53,7 @@ Estimate directIrradiance(const Medium& medium, double h, double muS, const Tole
   return result;
 }
 
-/// The resolved segment with what the sun's side needs; vectors, as shadow.h says why.
+/// The resolved segment with the vectors that shadow.h needs.
 SunlitRay makeSunlitRay(const Medium& medium, const ProbeQuery& query,
                         const ResolvedQuery& resolved) {
   using glm::dvec3;
@@ -152,7 +152,7 @@ class SingleScattering {
     return after != shadow.end() && t >= after->from;
   }
 
-  /// In thick air the light comes from a few mean free paths, far less than a scale height.
+  /// In a thick medium the light comes from a few mean free paths, far less than a scale height.
   void addFreePaths() {
     const physics_f64::Spectrum density = physics_f64::extinction(medium_, ray_.segment.h);
     double most = 0.0;
@@ -180,7 +180,7 @@ class SingleScattering {
     const auto after = std::upper_bound(breaks_.begin(), breaks_.end() - 1, t);
     const size_t segment =
         static_cast<size_t>(std::max<std::ptrdiff_t>(after - breaks_.begin(), 1)) - 1;
-    // A parallel beam steps at a piece's end, and its step is decided for the piece as a whole.
+    // A parallel beam steps at a segment's end, and its step is decided for the segment as a whole.
     const bool sharp = !(medium_.sunSinRadius > 0.0);
     const double visibility = sharp ? (lit_[segment] ? 1.0 : 0.0) : visibilityAt(t);
     if (hidden_[segment] || !(visibility > 0.0)) {
@@ -209,9 +209,9 @@ class SingleScattering {
   double tolerance_;
   Tolerance depthTolerance_;
   std::vector<double> breaks_;
-  std::vector<SpectrumIntegral> depths_;  ///< From the start to each end of a piece.
-  std::vector<bool> lit_;                 ///< Of each piece, for a sun without a disc.
-  std::vector<bool> hidden_;              ///< Whether a piece lies in one of the shadows.
+  std::vector<SpectrumIntegral> depths_;  ///< From the start to each end of a segment.
+  std::vector<bool> lit_;                 ///< Of each segment, for a sun without a disc.
+  std::vector<bool> hidden_;              ///< Whether a segment lies in a shadow.
 };
 
 /// R[L0] at the end of a ray on the ground (equation 10): Lambert's law for the direct sun.

@@ -1,6 +1,6 @@
-// What a solver is to the bake: a description. Which images there are, which compute shader fills
-// which of them from which, in which order, and which of them a table of the public API is. The
-// rest of this room (table_set.h, table_record.cpp) carries any such graph out.
+// A solver's bake as a graph: its images, the compute shaders that fill them, their inputs and
+// order, and the images that hold tables of the public API. The rest of this folder (table_set.h,
+// table_record.cpp) executes any such graph.
 #pragma once
 
 #include <alpenglow/tables.h>
@@ -86,10 +86,10 @@ struct BakeGraph {
   uint32_t imageAfter(const Pass& pass, TableId id) const;
 };
 
-/// What a graph's images and passes cost, recorded in one piece.
+/// Cost of a graph's images and passes in an unsliced bake.
 struct TableCost {
   uint64_t bytes = 0;      ///< Of images that stay.
-  uint64_t bakeBytes = 0;  ///< Of images that the bake takes besides.
+  uint64_t bakeBytes = 0;  ///< Of images that only the bake needs.
   uint64_t texels = 0;     ///< Of images that stay.
   uint64_t images = 0;     ///< That stay.
   uint64_t pipelines = 0;
@@ -109,14 +109,14 @@ constexpr bool isOrderTable(TableId id) { return id >= kTableOrderMoments; }
 BakeGraph standardGraph(const Parameters& parameters, const TableDesc& desc, TableFormat finest);
 
 /// The moment solver: T; the rules Q, Legendre functions Y and rotations W; then for each order
-/// n = 1 ... N - 1 its light on rays L n, in modes F n, in harmonics M n, about the sun R n, and
-/// what comes of it: modes H n, the field N n and between its nodes I n, the source J n + 1; last
-/// the sums of both, with their tail. `desc` is completed.
+/// n = 1 ... N - 1 its light on rays L n, in modes F n, in harmonics M n, about the sun R n, then
+/// modes H n, the field N n and between its nodes I n, and the source J n + 1; last the sums of
+/// field and source, with their tail. `desc` is completed.
 BakeGraph momentGraph(const Parameters& parameters, const TableDesc& desc);
 
 VkFormat vulkanFormat(TableFormat format);
 
-/// The smallest piece of a pass that is dispatched apart: the height of a workgroup.
+/// Rows of the smallest part of a pass that is dispatched alone: the height of a workgroup.
 inline constexpr uint32_t kTileRows = 8;
 
 }  // namespace alpenglow::tables

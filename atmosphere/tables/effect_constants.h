@@ -12,7 +12,7 @@ namespace alpenglow::tables {
 
 inline constexpr uint32_t kEffectConstants = 6;
 
-/// All of them, also those that a shader doesn't declare: Vulkan ignores such.
+/// All constants; Vulkan ignores those that a shader doesn't declare.
 inline std::array<engine::SpecConstant, kEffectConstants> effectConstants(
     EffectFlags disabledEffects) {
   constexpr Effect kEffects[kEffectConstants] = {Effect::Rayleigh,         Effect::Mie,

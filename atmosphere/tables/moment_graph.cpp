@@ -130,7 +130,7 @@ class Builder {
   void addTables() {
     t_ = floats("Alpenglow optical depth", c_.depthMu, c_.depthH, true);
     keep(kTableOpticalDepth, t_);
-    // What isn't there is not declared by those who read it, but lavapipe wants every binding
+    // Shaders don't declare bindings of missing images, but lavapipe requires that every binding is
     // filled.
     for (uint32_t& bound : graph_.bound) bound = t_;
 
@@ -155,7 +155,7 @@ class Builder {
     graph_.bound[2] = graph_.bound[3] = source_;
   }
 
-  // What every order uses, and the images that orders leave to each other.
+  // Images that every order uses, and those that orders pass on.
   void addPreparation() {
     const uint32_t rows =
         zeniths_ * (1 + kFineZeniths) * c_.nodesR + (hasMie_ ? c_.sourceGamma : 0);
@@ -184,7 +184,7 @@ class Builder {
     if (hasMie_) addRotations();
   }
 
-  // The images of what aerosols alone need.
+  // Images for aerosols alone.
   void addSourcePreparation() {
     rotations_ = scalars("Alpenglow rotations", modesPerZenith_ * modesPerZenith_,
                          modesPerZenith_ * c_.nodesMuS);
@@ -210,7 +210,7 @@ class Builder {
   // L 1: along a ray that is cut about twice, each of two nodes of a panel reads T twice.
   uint32_t addSingle() {
     const uint32_t width = c_.azimuths * zeniths_ * kFineZeniths;
-    // Of molecules, aerosols and the ground; what there isn't is not stored either.
+    // Of molecules, aerosols and the ground; those that are absent are not stored.
     for (uint32_t i = 0; i < 3; ++i) {
       const bool stored = i == 0 || (i == 1 ? hasMie_ : reflects_);
       single_[i] = stored ? floats("Alpenglow single scattering", width, nodes_) : single_[0];
@@ -218,8 +218,8 @@ class Builder {
     Stage single =
         stage(hasMie_ ? ALPENGLOW_SHADER(kMomentSingle) : ALPENGLOW_SHADER(kMomentSingleMolecules),
               width, nodes_, uint64_t(c_.solverPanels) * 8);
-    // The code for a ray's light reads field and source too, where there are such: here it never
-    // does, but Vulkan asks for images.
+    // The code for a ray's light declares field and source too. It never reads them here, but
+    // Vulkan requires images.
     single.inputs = {{kDepth, t_}, {kField, orderField_}, {kRules, rules_}};
     if (hasMie_) single.inputs.push_back({kSource, orderSource_});
     single.outputs = {{single_[0]}, {single_[1]}, {single_[2]}};

@@ -68,7 +68,7 @@ const PeakClass& peakClass(const Parameters& p) {
   return *result;
 }
 
-// Panels more for air that is thin in a high shell: two for each doubling beyond 64 scale heights.
+// More panels for a high, thin shell: two for each doubling beyond 64 scale heights.
 uint32_t segmentPanels(const Parameters& p) {
   double least = p.topRadius_m - p.bottomRadius_m;
   const double thickness = least;

@@ -20,11 +20,11 @@ void shapeDepths(const physics_f64::Medium& medium, Shape* s) {
   s->heightScale = std::min(medium.thickness, std::sqrt(least * most));
 }
 
-/// How far tables reach beyond the requested sun elevations, in dips of the top: as far as rays,
-/// and the light that lights them, come from. Measured: build/bin/domain_bench.
+/// How far tables reach beyond the requested sun elevations, in dips of the top: as far as rays and
+/// their light come from. Measured: build/bin/domain_bench.
 constexpr double kReachToNight = 0.6, kReachToDay = 0.75;
-/// And towards the day for each radian that the sun is below the horizon: twilight comes from
-/// there.
+/// Additional reach towards the day for each radian of the sun below the horizon: twilight comes
+/// from there.
 constexpr double kReachBelow = 0.75;
 
 /// Where the top of the atmosphere passes into the planet's shadow; on Earth 7.84 degrees wide.
@@ -55,13 +55,13 @@ struct SunRange {
   double first, last;
 };
 
-/// What the tables of a description hold of all sun elevations.
+/// The part of all sun elevations that a description's tables hold.
 SunRange sunRange(const physics_f64::Medium& medium, const SunNodes& nodes, const TableDesc& desc) {
   if (allSuns(desc)) return {nodes.first, nodes.last};
   const double dip = dipOfTop(medium);
   const double below = std::max(desc.sunZenithFrom - std::numbers::pi / 2.0, 0.0);
   const double reach = kReachToDay * dip + kReachBelow * below;
-  // Suns lower than light ever comes from take the last place there is.
+  // A sun below all light takes the last node.
   const double last = std::min(desc.sunZenithTo + kReachToNight * dip, nodes.last);
   return {std::max(std::min(desc.sunZenithFrom, last) - reach, nodes.first), last};
 }
@@ -118,7 +118,7 @@ physics_f64::MomentShape makeMomentShapeF64(const Parameters& parameters, const 
 }
 
 physics_f32::MomentShape makeMomentShapeF32(const Parameters& parameters, const TableDesc& desc) {
-  // Both are nothing but the same numbers, one after the other.
+  // Both structs have the same members in the same order.
   using Single = physics_f32::MomentShape;
   static_assert(sizeof(Shape) == 2 * sizeof(Single));
   constexpr size_t kCount = sizeof(Single) / sizeof(float);

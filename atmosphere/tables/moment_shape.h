@@ -1,4 +1,4 @@
-// Where the tables of the moment solver hold what: the constants of
+// The layout of the moment solver's tables: the constants of
 // shaders/glsl/physics/field.glsl.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace alpenglow::tables {
 
 /// The shape of a completed description's tables, computed in double. Pure; thread-safe.
 physics_f64::MomentShape makeMomentShapeF64(const Parameters& parameters, const TableDesc& desc);
-/// The same as the GPU has it.
+/// The same in float, as in the uniform block.
 physics_f32::MomentShape makeMomentShapeF32(const Parameters& parameters, const TableDesc& desc);
 
 /// Whether a description's tables are for any zenith angle of the sun.
@@ -20,19 +20,19 @@ inline bool allSuns(const TableDesc& desc) {
 }
 
 /// Nodes over mu_s that a description's range of sun elevations takes, as dense as `all` of them
-/// are over every sun. Cubics want four.
+/// are over every sun. Cubics need four.
 uint32_t nodesOfSunRange(const Parameters& parameters, const TableDesc& desc, uint32_t all);
 inline constexpr uint32_t kLeastSunNodes = 4;
 
-/// The sizes that a quality level has for an atmosphere, by the rule of docs/moment-solver.md, with
-/// what `given` has in place of it.
+/// The sizes of a quality level for an atmosphere, by the rule of docs/moment-solver.md; sizes in
+/// `given` override it.
 TableSizes momentSizes(const Parameters& parameters, Quality quality, const TableSizes& given);
 
 /// Orders of scattering that are computed one by one: TableDesc::orders, or for 0 as many as the
 /// atmosphere needs before the rest is a geometric series.
 uint32_t solvedOrders(const Parameters& parameters, const TableDesc& desc);
 
-/// Layers of the table of moments: momentShape's `layers`. E is the last, if anything wants it.
+/// Layers of the table of moments: MomentShape::layers. E is the last, if it is needed.
 inline uint32_t fieldLayers(const TableDesc& desc) {
   constexpr EffectFlags kGround =
       effectBit(Effect::GroundReflection) | effectBit(Effect::GroundIrradiance);

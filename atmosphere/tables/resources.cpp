@@ -114,7 +114,7 @@ Status Resources::pipeline(const Stage& stage, VkPipeline* out) {
   const Status chosen = engine::chooseShader(device_, stage.shader, &used);
   if (chosen != Status::Ok) return chosen;
   key.code = stage.shader.code;
-  // The host's code may come to lie where other code of it lay.
+  // The host may pass other code at the same address.
   if (used.code != key.code) key.replacement = engine::variantKey(used, nullptr, 0);
   key.disabledEffects = stage.disabledEffects;
   engine::SpecConstant constants[kStageConstants + kEffectConstants];

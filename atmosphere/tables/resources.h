@@ -22,8 +22,8 @@ struct TileConstants {
 inline constexpr uint32_t kTableBindings = 1 + kBoundTables;  ///< Uniforms and sampled tables.
 inline constexpr uint32_t kInputBindings = 1 + kMaxInputs;    ///< Uniforms and sampled images.
 
-/// Float where the device stores and filters it, else `otherwise`: for what differences are taken
-/// of, or what must not round the tables.
+/// Float where the device stores and filters it, else `otherwise`: for values that are subtracted
+/// from each other, or that must not add rounding to the tables.
 TableFormat finestFormat(const engine::Device& device, TableFormat otherwise);
 
 /// Made with the context, destroyed with it. Thread-safe.
@@ -51,9 +51,9 @@ class Resources {
   /// The pipeline of a stage; made at the first call for its shader and constants, and kept.
   Status pipeline(const Stage& stage, VkPipeline* out);
 
-  /// A number for tables: an address may come again, an id never.
+  /// A new id for tables: unlike an address it is never reused.
   uint64_t nextTablesId() { return ++tablesMade_; }
-  Context* context = nullptr;  ///< Whose these are.
+  Context* context = nullptr;  ///< The owner.
 
  private:
   Resources(engine::Device& device, VkShaderStageFlags setStages)

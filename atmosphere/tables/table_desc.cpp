@@ -69,7 +69,7 @@ Status refuseOther(const DiagnosticSink& sink, Solver solver, const char* group,
                                      "default.");
 }
 
-// What belongs to another solver must be left at its default: it would do nothing.
+// Members of another solver must have their defaults: they would have no effect.
 Status checkCombination(const DiagnosticSink& sink, const TableDesc& desc) {
   const bool moments = desc.solver == Solver::Moments, model = isModel(desc.solver);
   const struct {
@@ -236,7 +236,7 @@ Status checkImageSizes(const DiagnosticSink& sink, const TableDesc& desc, uint32
 
 constexpr VkPipelineStageFlags2 kDefaultReaders =
     VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT;
-/// Stages that have shaders without an extension, and what stands for all of them.
+/// Stages that have shaders without an extension, and the flags that stand for all of them.
 constexpr VkPipelineStageFlags2 kKnownReaders =
     kDefaultReaders | VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT |
     VK_PIPELINE_STAGE_2_TESSELLATION_CONTROL_SHADER_BIT |
@@ -284,7 +284,7 @@ constexpr TableSizes kStandardSizes = {.transmittanceMu = 256,
 void completeMoments(const Parameters& parameters, const TableDesc& desc, TableDesc* full) {
   if (desc.quality == Quality::Default) full->quality = Quality::Medium;
   full->sizes = momentSizes(parameters, desc.quality, desc.sizes);
-  // Molecules ask for no more than the second moments.
+  // Molecules need no more than the second moments.
   if (!hasEffect(desc.disabledEffects, Effect::Mie) && desc.sizes.degree == 0)
     full->sizes.degree = 2;
   if (!hasEffect(desc.disabledEffects, Effect::MultipleScattering)) full->orders = 1;

@@ -94,7 +94,7 @@ Status Tables::recordPass(VkCommandBuffer commands, const tables::Pass& pass, ui
   for (const tables::StageInput& input : stage.inputs)
     barriers.image(images_[input.image], engine::kComputeSampled);
   for (const tables::StageOutput& output : stage.outputs) {
-    // An image stands for others that aren't there; once is enough.
+    // One image may fill the bindings of missing ones; one barrier is enough.
     if (&output != stage.outputs.data() && output.image == stage.outputs[0].image) continue;
     engine::Image& image = images_[output.image];
     if (output.accumulates) {
@@ -172,7 +172,7 @@ TablesState Tables::state() const {
   return state_.readyFrame <= device_.completed() ? TablesState::Complete : TablesState::Recorded;
 }
 
-// Only once the last frame has completed: an abandoned one would need it again.
+// Only once the last frame has completed: after an abandoned frame it is needed again.
 void Tables::frameCompleted(uint64_t completed) {
   const bool needed = desc_.keepOrders && state_.uploaded == 0;
   if (state_.ready && !needed && recordedFrame_ <= completed) releaseScratch();
@@ -198,9 +198,9 @@ void Tables::frameAbandoned(uint64_t frame) {
     keptFrame_ = 0;
     return;
   }
-  // Whole before that frame: it can only have held readbacks, which leave the images as they were.
+  // Complete before that frame, which can only have recorded readbacks: they keep the images.
   if (state_.ready && state_.readyFrame < frame) return;
-  // Later slices stand on what is missing now. Their commands may still execute.
+  // Later slices depend on results that are missing now. Their commands may still execute.
   state_ = {};
   recordedFrame_ = keptFrame_ = 0;
   for (engine::Image& image : images_) image.state.layout = VK_IMAGE_LAYOUT_UNDEFINED;

@@ -15,10 +15,10 @@
 
 namespace alpenglow::tables {
 
-/// The description with its zeros replaced by defaults, for parameters as simulated: what
-/// resolveTableDesc does after its checks.
+/// The description with its zeros replaced by defaults, for simulated parameters: the second part
+/// of resolveTableDesc.
 TableDesc completed(const Parameters& parameters, const TableDesc& desc);
-/// The parameters less what is not simulated.
+/// The parameters without disabled effects.
 Parameters simulated(const Parameters& parameters, EffectFlags disabled);
 /// Ok, or a sentence when a size of a completed description is out of range on this device.
 Status checkDeviceLimits(const engine::Device& device, const TableDesc& desc);
@@ -55,7 +55,7 @@ struct Tables : public engine::FrameObject {
   uint64_t recordedFrame() const { return recordedFrame_; }
   const Parameters& parameters() const { return parameters_; }
   const TableDesc& desc() const { return desc_; }
-  /// Of light 0, at the top of the atmosphere: what views draw with.
+  /// Irradiance of light 0 at the top of the atmosphere, for views.
   const Spectrum& irradiance() const { return desc_.lights[0].irradiance; }
   VkDescriptorSet descriptorSet() const { return tableSet_; }
   tables::Resources& resources() const { return resources_; }
@@ -97,7 +97,7 @@ struct Tables : public engine::FrameObject {
   Status finish(VkCommandBuffer commands);
   Status recordHostCopies(VkCommandBuffer commands);
   void releaseScratch();
-  /// Before anything is recorded: keeps what frameAbandoned() goes back to.
+  /// Before anything is recorded: saves the state that frameAbandoned() restores.
   Status noteFrame();
 
   tables::Resources& resources_;
@@ -109,7 +109,7 @@ struct Tables : public engine::FrameObject {
   tables::BakeGraph graph_;
   uint64_t unitsTotal_ = 0;
 
-  /// What the bake has for a stage.
+  /// Objects of the bake for a stage.
   struct StageObjects {
     VkPipeline pipeline = VK_NULL_HANDLE;  ///< Owned by the resources.
     VkDescriptorSet inputs = VK_NULL_HANDLE, outputs = VK_NULL_HANDLE;
@@ -123,7 +123,7 @@ struct Tables : public engine::FrameObject {
   VkDescriptorPool pool_ = VK_NULL_HANDLE;
   VkDescriptorSet tableSet_ = VK_NULL_HANDLE;
 
-  /// What has been recorded, as far as no frame was abandoned.
+  /// What has been recorded in frames that were not abandoned.
   struct RecordState {
     uint32_t pass = 0;
     uint32_t row = 0;
@@ -134,7 +134,7 @@ struct Tables : public engine::FrameObject {
   };
   RecordState state_;
   uint64_t recordedFrame_ = 0;   ///< The newest in which something was recorded, and not abandoned.
-  uint64_t keptFrame_ = 0;       ///< What was before this one is kept; 0: nothing is.
+  uint64_t keptFrame_ = 0;       ///< The state before this frame is saved; 0: none is.
   uint64_t recordedBefore_ = 0;  ///< recordedFrame_ before keptFrame_ ...
   RecordState stateBefore_;      ///< ... the state then ...
   std::vector<engine::ImageTrack> imagesBefore_;  ///< ... and the images' states then.

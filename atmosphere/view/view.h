@@ -1,4 +1,4 @@
-// One picture: composes the passes. What the public handle alpenglow::View points to.
+// Composes the passes of one picture. The public handle alpenglow::View points to it.
 #pragma once
 
 #include "atmosphere/passes/light_shaft_pass.h"

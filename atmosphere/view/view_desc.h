@@ -1,4 +1,4 @@
-// What a host may ask of a view, and what it stands for.
+// Checks of ViewDesc, and its resolved form.
 #pragma once
 
 #include "atmosphere/camera/picture.h"

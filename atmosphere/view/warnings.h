@@ -1,4 +1,4 @@
-// Frames that are legal and most likely meant otherwise: a view reports each kind once.
+// Frames that are legal but most likely mistakes: a view reports each kind once.
 #pragma once
 
 #include "atmosphere/camera/picture.h"

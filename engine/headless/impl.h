@@ -1,4 +1,4 @@
-// What a headless device holds.
+// Members of a headless device.
 #pragma once
 
 #include <alpenglow/headless.h>

@@ -1,4 +1,4 @@
-// The loader, a VkInstance on it, and what the validation layers say.
+// The loader, a VkInstance on it, and the messages of the validation layers.
 #pragma once
 
 #include <alpenglow/headless.h>
@@ -67,7 +67,7 @@ class Instance {
   Functions vk_;
 };
 
-/// Puts the sentence where the caller wants it, if it does; false, for `return setError(...)`.
+/// Stores the sentence if `error` is given; returns false, for `return setError(...)`.
 bool setError(std::string* error, std::string sentence);
 /// "vkCreateInstance returned VK_ERROR_... (-3)."
 std::string resultSentence(const char* call, VkResult result);

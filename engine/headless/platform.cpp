@@ -8,7 +8,7 @@
 #include <sys/resource.h>
 #endif
 
-// GCC says it by macros, clang by features.
+// GCC has macros for it, clang has features.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define ALPENGLOW_SANITIZED
 #elif defined(__has_feature)
@@ -83,7 +83,7 @@ int addName(dl_phdr_info* info, size_t, void* names) {
 }  // namespace
 
 void keepDrivers() {
-  std::string names;  // One a line: opening them while the list is walked would lock for ever.
+  std::string names;  // One a line: opening them while iterating the list would deadlock.
   dl_iterate_phdr(addName, &names);
   for (size_t start = 0, end = 0; (end = names.find('\n', start)) != std::string::npos;
        start = end + 1) {

@@ -1,4 +1,4 @@
-// What differs between systems: libraries opened at run time, and CPU time.
+// Differences between systems: libraries opened at run time, and CPU time.
 #pragma once
 
 #include <string>
@@ -20,8 +20,8 @@ void* findFunction(void* library, const char* name);
 void closeLibrary(void* library);
 
 /// Keeps the libraries of drivers and layers that are loaded now until the process ends, in a build
-/// with a sanitizer; does nothing in others. An unloaded module takes with it the pointers and the
-/// names by which a sanitizer tells its memory and its threads from ours.
+/// with a sanitizer; does nothing in others. When a module is unloaded, a sanitizer loses the
+/// pointers and names by which it distinguishes the module's memory and threads from ours.
 void keepDrivers();
 
 /// User CPU time of the whole process, so that of a software driver's threads too.

@@ -32,7 +32,7 @@ std::string listNames(const Instance& instance, const std::vector<VkPhysicalDevi
   return list;
 }
 
-/// Leaves in `devices` what `select` names.
+/// Keeps in `devices` only those that `select` names.
 bool narrow(const Instance& instance, const std::string& select,
             std::vector<VkPhysicalDevice>* devices, std::string* error) {
   std::vector<VkPhysicalDevice> chosen;

@@ -1,4 +1,4 @@
-// What a scene's plan is, for people and for programs.
+// Prints a scene's plan, for people and as JSON.
 #include <cmath>
 #include <cstdio>
 #include <iostream>

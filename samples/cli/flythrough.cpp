@@ -27,8 +27,8 @@ std::vector<io::Scene> keyScenes(const io::Flythrough& flythrough) {
   return scenes;
 }
 
-// Refuses what any key has, before there is a device: tables that can't be made for its air, or are
-// another's. Returns the first key's.
+// Checks all keys before there is a device: refuses tables that can't be made for a key's
+// atmosphere, or that are for another one. Returns the tables of the first key.
 TableRequest requestAll(const TableArguments& arguments, const std::vector<io::Scene>& scenes) {
   TableRequest first = requestTables(arguments, scenes.front().atmosphere, &scenes.front());
   for (size_t i = 1; i < scenes.size(); ++i) {

@@ -19,7 +19,8 @@ struct FlythroughParts {
 /// has.
 class FlythroughFrames {
  public:
-  /// `first` is the flythrough's first scene, `request` the tables of its air. Throws a Failure.
+  /// `first` is the flythrough's first scene, `request` the tables of its atmosphere. Throws a
+  /// Failure.
   FlythroughFrames(FlythroughParts parts, const io::Scene& first, TableRequest request);
 
   /// Throws a Failure.

@@ -7,7 +7,7 @@
 
 namespace alpenglow::cli {
 
-/// Of a text such as "0,24,48-96": the frames, each once, in order. Throws a usage Failure for
+/// Parses "0,24,48-96" and the like: the frames, each once, in order. Throws a usage Failure for
 /// anything else, and for a frame that isn't below `count`.
 std::vector<uint32_t> parseFrames(const std::string& text, uint32_t count);
 

@@ -12,18 +12,18 @@
 namespace alpenglow::cli {
 
 struct LightShaftChoice {
-  io::SceneLightShafts method = io::SceneLightShafts::Off;  ///< Auto: Exact where the device can.
+  io::SceneLightShafts method = io::SceneLightShafts::Off;  ///< Auto: LightVolume if possible.
   uint32_t stepCount = 0;
   std::string whyOff;                    ///< A sentence, where Auto became Off.
   CapabilityFlags requirements() const;  ///< What the device must have.
-  CapabilityFlags wishes() const;        ///< What it would be nice to have.
+  CapabilityFlags wishes() const;        ///< What it should have, if it can.
 };
 
 /// Checked before there is a device. Throws a Failure for what contradicts itself.
 LightShaftChoice chooseLightShafts(const RenderArguments& arguments, const io::Scene& scene,
                                    Solver solver);
 
-/// What to make. Says on stderr why there are none where they were left to us.
+/// The final choice. Reports on stderr why Auto became Off.
 LightShaftDesc describeLightShafts(const LightShaftChoice& choice, const Session& session);
 
 }  // namespace alpenglow::cli

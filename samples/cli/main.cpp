@@ -61,8 +61,8 @@ void addRender(CLI::App* app, Arguments* arguments) {
 
 void addExplain(CLI::App* app, Arguments* arguments) {
   ExplainArguments* explain = &arguments->explain;
-  CLI::App* command =
-      app->add_subcommand("explain", "Say what a scene's picture is made of, and why");
+  CLI::App* command = app->add_subcommand(
+      "explain", "Print the plan of a scene: effects, sizes and methods, and the reasons");
   command->add_option("SCENE", explain->scene, "A sample scene's name or a scene file")->required();
   command->add_flag("--json", explain->json, "For programs");
   command->callback([explain] { runExplain(*explain); });
@@ -151,7 +151,7 @@ int parseAndRun(int argc, char** argv) {
   return 0;
 }
 
-// Names and ids from outside may hold anything; a sentence is one line all the same.
+// Names and ids from outside may hold line breaks; a sentence is one line.
 void say(std::string sentence) {
   for (char& c : sentence) {
     if (static_cast<unsigned char>(c) < ' ' || c == '\x7F') c = '?';

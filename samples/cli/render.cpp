@@ -22,10 +22,10 @@ void writePicture(const std::string& path, const io::Scene& scene, const io::Lin
 
 namespace {
 
-// What the options and the scene leave open is planned; a table file is what it is.
+// Choices that the options and the scene leave open are planned; a table file is used as it is.
 Plan planPicture(const RenderArguments& arguments, io::Scene scene, const LightShaftChoice& shafts,
                  TableRequest* request) {
-  scene.shafts = shafts.method;  // Options beat the scene.
+  scene.shafts = shafts.method;  // Options override the scene.
   if (request->file) {
     PlanRequest asked = samples::requestOf(scene);
     for (uint32_t i = 0; i < kEffectCount; ++i) {

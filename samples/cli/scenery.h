@@ -1,4 +1,4 @@
-// What a scene has besides the sky: terrain, its light shafts, balloons.
+// Contents of a scene besides the sky: terrain, its light shafts, balloons.
 #pragma once
 
 #include <alpenglow/plan.h>
@@ -28,7 +28,7 @@ class Scenery {
           const ReadyTables& tables, const LightShaftDesc& shafts, const Plan& plan);
 
   void describe(ViewDesc* view) const;
-  /// Makes the pipelines that read this view's shafts. Before draw().
+  /// Makes the pipelines that read this view's light shafts. Before draw().
   void follow(const View* view);
 
   /// Draws everything, the sky too, a pass at a time, into a target in any layout; leaves it in

@@ -1,4 +1,4 @@
-// Whether two of the library's descriptions say the same, member by member.
+// Compares two of the library's descriptions, member by member.
 #pragma once
 
 #include <alpenglow/view.h>

@@ -63,8 +63,8 @@ using Code = std::span<const uint32_t>;
 
 enum class Blending {
   None,
-  Alpha,  ///< What is there shows through.
-  Add,    ///< Light is added to it.
+  Alpha,  ///< Blended over the picture.
+  Add,    ///< Light is added to the picture.
 };
 
 /// A pipeline with viewport and scissor set while recording.
@@ -138,7 +138,7 @@ class Gpu {
     run_(pass, record);
   }
 
-  /// Throws unless the library is content.
+  /// Throws unless the status is Ok.
   void check(Status status) const { check_(status); }
   /// Throws unless the result is good; `what` is a function's name.
   static void check(VkResult result, const char* what);

@@ -1,4 +1,4 @@
-// The plan of a scene: what it may ask for, and what follows from it.
+// The plan of a scene: its request, and the result.
 #pragma once
 
 #include <alpenglow/io/scene_file.h>
@@ -16,11 +16,11 @@ void checkScenery(const io::Scene& scene);
 /// Camera, sun and viewport of a scene's picture.
 FrameDesc describeDraw(const io::Scene& scene);
 
-/// What a scene may ask for: all of SceneRequirements, or, of a still, its camera and sun and what
-/// they see.
+/// The request of a scene: all of its SceneRequirements, or, for a still picture, its camera and
+/// sun and what is visible.
 PlanRequest requestOf(const io::Scene& scene);
 
-/// Those of a camera and a sun that may go anywhere.
+/// The same for a camera and a sun that may go anywhere.
 PlanRequest requestOfFlight(const io::Scene& scene);
 
 /// Throws a Failure for a request that contradicts itself.

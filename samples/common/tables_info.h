@@ -1,4 +1,4 @@
-// What tables are, for those who want one thing of it.
+// TablesInfo by value.
 #pragma once
 
 #include <alpenglow/tables.h>

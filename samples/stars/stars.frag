@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A star's light: its irradiance, dimmed on the ray, spread over 3 x 3 pixels so that the sum of radiance times
+// A star's light: its irradiance times transmittance, spread over 3 x 3 pixels so that the sum of radiance times
 // solid angle is the same wherever between the pixels the star stands, and however large they are.
 #include "alpenglow/atmosphere.glsl"
 #include "stars.glsl"
@@ -29,7 +29,7 @@ float solidAngle(vec2 at) {
 void main() {
   vec2 at = gl_FragCoord.xy - view.viewport.xy - 0.5 * view.viewport.zw;
   float weight = spline(at.x - center.x) * spline(at.y - center.y);
-  // The sun counts for nothing in how far a ray's end is seen.
+  // The sun has no effect on transmittance.
   Ray ray = alpenglowRay(view.up.xyz, view.rightAltitude.w, direction, view.up.xyz);
   Spectrum light = alpenglowTransmittanceToSpace(ray) * view.irradiance.rgb;
   radiance = vec4(light * (share * weight / solidAngle(at)), 0.0);

@@ -1,6 +1,6 @@
 // The night sky of a host's scene: the stars of the Hipparcos catalogue that an eye can see, each a
-// point as bright as it is, dimmed by the aerial perspective in front of it and hidden by the
-// ground. They are drawn after the sky and before what is blended over it.
+// point of its brightness times transmittance, hidden by the ground. They are drawn after the sky
+// and before what is blended over it.
 #pragma once
 
 #include <alpenglow/view.h>

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Translucent cloth at any depth: lit, then put behind its own part of the atmosphere, then blended over what
-// has been drawn with the aerial perspective in front of that.
+// Translucent cloth at any depth: shaded, then given the aerial perspective in front of it, then blended over the
+// picture, which has aerial perspective already.
 #ifdef ALPENGLOW_SOLVER_STANDARD
 layout(constant_id = 0) const bool kMiePacked = false;
 #define ALPENGLOW_MIE_PACKED kMiePacked

@@ -10,8 +10,8 @@
 namespace alpenglow::samples {
 namespace {
 
-// Depth is reversed and infinitely far: floats have the same digits at any distance then, and the
-// near plane can be as close as anyone's nose.
+// Depth is reversed, with an infinitely distant far plane: floats then have the same relative
+// precision at any distance, and the near plane can be very close.
 constexpr double kNear_m = 0.5;
 
 /// Balloon of balloon.glsl.
@@ -113,7 +113,7 @@ void Landscape::uploadTerrain(const io::SceneTerrain& terrain, const io::AlbedoM
     albedo_ = gpu_->texture(*albedo);
     return;
   }
-  float rgba[4] = {0.0f, 0.0f, 0.0f, 1.0f};  // One texel, so that one shader covers both.
+  float rgba[4] = {0.0f, 0.0f, 0.0f, 1.0f};  // One texel, so that one shader serves both cases.
   for (uint32_t i = 0; i < kSpectrumSize; ++i) rgba[i] = static_cast<float>(terrain.albedo[i]);
   albedo_ = gpu_->texel(rgba);
 }
@@ -285,7 +285,7 @@ void Landscape::recordBalloons(VkCommandBuffer commands, const Tables* tables,
     return narrow(c[0] * f[0] + c[1] * f[1] + c[2] * f[2]);
   };
   std::sort(pushes.begin(), pushes.end(), [&](const BalloonPush& a, const BalloonPush& b) {
-    return distance(a) > distance(b);  // What is blended first lies behind.
+    return distance(a) > distance(b);  // Farthest first, for blending.
   });
   setPicture(commands, draw);
   pipelines_->bindBalloons(commands, tables, lightShaftSet_);

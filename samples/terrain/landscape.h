@@ -1,5 +1,5 @@
 // A host's scene in Alpenglow's sky: terrain that casts light shafts, and translucent balloons. It
-// shows what a host does itself and what it asks the library for. A frame, in this order:
+// shows which steps are the host's and which the library's. A frame, in this order:
 //
 //   recordFrame()      this frame's camera and sun
 //   recordDepth()      the terrain's depth alone
@@ -52,11 +52,12 @@ class Landscape {
   bool hasTerrain() const { return mesh_ != nullptr; }
   bool hasBalloons() const { return !balloons_.empty(); }
 
-  /// Adds what a view must know: the formats of the scene's depth, and the shafts.
+  /// Adds this scene's members of ViewDesc: the formats of its depth, and the light shafts.
   void describe(ViewDesc* view) const;
-  /// Makes the pipelines, which read the shafts of this view. Before anything is recorded. Throws.
+  /// Makes the pipelines, which read the light shafts of this view. Before anything is recorded.
+  /// Throws.
   void follow(const View* view);
-  /// Adds what a frame must know: depth planes for its camera, the scene's depth, the casters.
+  /// Adds this scene's members of FrameDesc: depth planes of the camera, scene depth, casters.
   void describe(FrameDesc* frame) const;
 
   /// Outside rendering scopes, as the next; the other calls draw for the frame given here.

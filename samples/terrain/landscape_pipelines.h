@@ -1,4 +1,4 @@
-// How a landscape's triangles are drawn: its descriptor sets and pipelines.
+// Descriptor sets and pipelines of a landscape's triangles.
 #pragma once
 
 #include <alpenglow/view.h>

@@ -138,7 +138,7 @@ size_t App::run() {
     return !saves && (state_.quit || glfwWindowShouldClose(window_.handle()) == GLFW_TRUE);
   };
   while (!quits()) {
-    // Nothing moves: don't keep a processor busy.
+    // Nothing moves: leave the processor idle.
     const bool idle = settled() && !script_ && !(options_.flythrough && state_.playing);
     window_.poll(idle ? 0.1 : 0.0);
     if (script_) {
@@ -265,7 +265,8 @@ void App::goBack(const io::Scene& before, const std::string& why) {
   planned_ = before;
 }
 
-// Pipelines of what was edited. What the library refuses is taken back, and the old code stays.
+// Rebuilds pipelines of edited shaders. Code that the library refuses is dropped; the old code
+// stays.
 void App::followShaders() {
   if (!host_.shaders || !hasPlan_ || !host_.shaders->poll()) return;
   const auto makeAll = [this] {
@@ -290,7 +291,7 @@ void App::takeBake() {
   if (const std::string why = baker_.takeRefusal(); !why.empty()) state_.message = why;
 }
 
-// Draws with it from now on; where the stage can't, all is as it was.
+// Draws with it from now on; on failure nothing changes.
 void App::show(const BakedAtmosphere& baked) {
   const std::optional<BakedAtmosphere> before = baked_;
   const io::Scene sceneBefore = shownScene_;
@@ -318,8 +319,8 @@ VkExtent2D App::chooseSize(VkExtent2D full) {
   if (!moving || !state_.screenshot.empty()) return full;
   double seconds = 0.0;
   for (const char* pass : kPassesOfPixels) seconds += timer_.seconds(pass);
-  // Fewer pixels don't shorten the other passes: the rest of a frame is for pixels, or, where those
-  // leave none, a third of what they take.
+  // Fewer pixels don't shorten the other passes: pixels get the remaining time of a frame, but at
+  // least a third of the time of the other passes.
   const double others = timer_.seconds() - timer_.seconds("bake") - seconds;
   const double wanted = std::max(1.0 / options_.config.framesPerSecond - others, others / 3.0);
   const bool slow = seconds > wanted, fast = seconds < 0.6 * wanted && seconds > 0.0;
@@ -366,7 +367,7 @@ void App::drawPicture(const Frame& frame) {
   picture_.endDrawing(frame.commands);
 }
 
-// Eyes take a moment.
+// Exposure adapts gradually, like eyes.
 void App::chooseExposure(const Frame& frame, double seconds) {
   if (const std::optional<double> measured = picture_.measured(frame)) wantedExposure_ = *measured;
   if (wantedExposure_ == 0.0) return;

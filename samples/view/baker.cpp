@@ -91,7 +91,7 @@ void Baker::learn(const Frame& frame, const PassTimer& timer) {
   pieces.clear();
 }
 
-// What was never timed may be as slow as the slowest.
+// A pass that was never timed may be as slow as the slowest.
 double Baker::unitsPerSecond(const Kind& kind) const {
   const auto known = unitsPerSecond_.find(kind);
   if (known != unitsPerSecond_.end()) return known->second;
@@ -104,9 +104,8 @@ void Baker::record(const Frame& frame, PassTimer* timer, double seconds) {
   learn(frame, *timer);
   for (int i = 0; i < kMostPieces && seconds > 0.0; ++i) {
     if (!baking_ || progress_.done) return;
-    // The pass is that of the last call, or the one after it, which is unknown until it is
-    // recorded.
-    // No pass has been recorded before the first slice.
+    // The slice belongs to the pass of the last call. If that is finished, or before the first
+    // slice, the pass is unknown until the slice is recorded.
     const bool between = progress_.passFinished || progress_.pass == nullptr;
     const Kind before = {baking_->desc.quality, between ? "" : progress_.pass};
     const double budget = std::max(seconds * unitsPerSecond(before), 1.0);

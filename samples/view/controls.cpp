@@ -171,7 +171,7 @@ void press(State* state, Action action, bool shift) {
       state->quit = true;
       return;
     default:
-      return;  // What is held is looked at by control().
+      return;  // control() handles keys that are held.
   }
 }
 

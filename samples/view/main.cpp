@@ -79,7 +79,8 @@ AppOptions optionsOf(const Arguments& arguments) {
 }
 
 int runProgram(int argc, char** argv) {
-  CLI::App app("Shows a scene in a window, in which everything can be turned.", "alpenglow-view");
+  CLI::App app("Shows a scene in a window, in which every parameter can be changed.",
+               "alpenglow-view");
   Arguments arguments;
   addOptions(&app, &arguments);
   try {

@@ -90,7 +90,7 @@ void showPicture(State* state, const PanelFacts& facts) {
 
 void showMethod(State* state, const PanelFacts& facts) {
   combo(state, "model", "model");
-  if (!io::solverOf(state->scene.model)) {  // The simpler models have nothing of these.
+  if (!io::solverOf(state->scene.model)) {  // The simpler models have none of these.
     combo(state, "solver", "solver");
     if (state->scene.solver != Solver::Standard) combo(state, "quality", "quality");
     combo(state, "orders", "orders");
@@ -100,7 +100,7 @@ void showMethod(State* state, const PanelFacts& facts) {
   const Plan& plan = facts.baked->plan;
   const char* limit = modelLimit(plan.tables.solver);
   if (limit[0] != '\0') ImGui::TextWrapped("%s", limit);
-  // Of all orders: what is left out of choice is no error of the tables.
+  // With all orders: orders left out by choice are no error of the tables.
   if (plan.expectedError > 0.0 && !state->scene.orders) {
     ImGui::Text("error expected: up to %.2f %%", 100.0 * plan.expectedError);
     hint(
@@ -249,7 +249,7 @@ void Panel::make(State* state, const PanelFacts& facts) {
     constexpr double kHaze[2] = {1.0, 20.0};
     const auto haze =
         edited(state, "turbidity", "turbidity", turbidity(state->scene.atmosphere), kHaze, "%.2f");
-    hint("What all the atmosphere takes out of green light, over what its molecules take.");
+    hint("Optical depth of the whole atmosphere over that of its molecules, in green.");
     if (haze) setTurbidity(&state->scene.atmosphere, std::clamp(*haze, kHaze[0], kHaze[1]));
     sliders(state, true);
   }

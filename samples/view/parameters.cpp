@@ -141,7 +141,7 @@ void Parameter::set(io::Scene* scene, double value) const {
   double* number = find(*scene);
   if (number == nullptr) return;
   *number = value / factor;
-  // Aerosols never scatter more than they take out of a beam.
+  // Scattering of aerosols is at most their extinction.
   MieParameters& mie = scene->atmosphere.mie;
   const bool extinction = name.starts_with("mie.extinction");
   for (uint32_t i = 0; i < kSpectrumSize; ++i) {

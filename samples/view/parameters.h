@@ -1,4 +1,4 @@
-// Every number of a scene that can be turned, by name, with its unit and range.
+// Every parameter of a scene, by name, with its unit and range.
 #pragma once
 
 #include <alpenglow/io/scene_file.h>
@@ -13,7 +13,7 @@ struct Parameter {
   const char* group;  ///< "rayleigh", as files have it.
   std::string name;   ///< "rayleigh.scattering_per_m.0": group, field, channel.
   const char* unit;
-  double least, most;  ///< Of sliders: what is allowed, or less where that is beyond use.
+  double least, most;  ///< Of sliders: the allowed range, or the useful part of it.
   bool logarithmic;
   bool ofMedium;                            ///< A change of it needs other tables.
   std::function<double*(io::Scene&)> find;  ///< Null where the scene has no such thing.

@@ -13,9 +13,10 @@
 //   exposure VALUE|auto
 //   seek SECONDS         a flythrough, which then halts
 //   random N SEED        change a random parameter in each of N frames
-//   show SECTION...      opens these sections of the panel, such as Atmosphere, and closes the
-//   others save FILE            .png or .exr, as the keys do report FILE          JSON: the scene,
-//   times of the frames since the last report, memory quit
+//   show SECTION...      open these sections of the panel, such as Atmosphere, and close the others
+//   save FILE            .png or .exr, as the keys do
+//   report FILE          JSON: the scene, times of the frames since the last report, memory
+//   quit
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// What is drawn: a scene's sky, ground, terrain, shafts, stars and balloons, through one view.
+// Draws a scene: sky, ground, terrain, light shafts, stars and balloons, through one view.
 #pragma once
 
 #include <alpenglow/io/scene_file.h>
@@ -22,7 +22,7 @@ class Stage {
   Stage& operator=(const Stage&) = delete;
   ~Stage();
 
-  /// Reads what a scene names. Throws; then all is as it was.
+  /// Reads the files that a scene names. Throws; then nothing has changed.
   void load(const io::Scene& scene);
 
   /// Makes the pipelines for these tables, unless there are: they follow solver, effects, quality

@@ -1,4 +1,4 @@
-// What controls, panel, script and flythrough change, and the frame loop looks at.
+// State that controls, panel, script and flythrough change, and the frame loop reads.
 #pragma once
 
 #include <alpenglow/io/scene_file.h>
@@ -27,7 +27,7 @@ struct State {
     double value = 0.0;
   };
   std::optional<Typed> typed;
-  /// The last thing that went wrong, or was done: a sentence.
+  /// The last failure or action, as a sentence.
   std::string message;
 };
 

@@ -24,7 +24,7 @@ class TablePictures {
   void make(const Tables* tables, const TableDesc& desc);
 
  private:
-  /// The values from black to white; of positive ones perhaps their logarithms.
+  /// The values of black and white, or their logarithms.
   struct Look {
     float from, to;
     bool logarithm;
@@ -35,7 +35,7 @@ class TablePictures {
     const char* axes;
     uint32_t binding;
     bool volume;
-    Look look;  ///< That shows most of it, of an atmosphere like the Earth's.
+    Look look;  ///< A useful range for an atmosphere like the Earth's.
   };
   static std::vector<Shown> tablesOf(const TableDesc& desc);
   VkPipeline pipelineFor(const Shown& shown);

@@ -116,7 +116,7 @@ TEST_F(StandardSkyTest, ASkyContextTakesUploadsButDoesNotBake) {
   destroyContext(made);
 }
 
-// dynamicRendering is for views without a render pass alone.
+// Only views without a render pass need dynamicRendering.
 TEST_F(StandardSkyTest, WithoutDynamicRenderingRenderPassesDraw) {
   ContextDesc desc = contextDesc();
   desc.enabled.deviceFeatures &= ~DeviceFeatureFlags{kFeatureDynamicRendering};

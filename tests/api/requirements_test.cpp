@@ -1,4 +1,4 @@
-// What a device lacks, told before a host makes one; on a Vulkan that is played.
+// What a device lacks, reported before a host makes one; on a mock Vulkan.
 #include <alpenglow/context.h>
 #include <gtest/gtest.h>
 

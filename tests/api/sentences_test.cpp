@@ -221,7 +221,7 @@ const Call kCalls[] = {
        request.tables.orders = 10'000'000;
        return makePlan(earth(), request, &plan, sink);
      }},
-    // mesh.h
+    // mesh/adjacency.h
     {"buildAdjacency", "MeshView::indices",
      [](Sink sink) {
        MeshView mesh;

@@ -232,7 +232,7 @@ TEST_F(TablesTest, ImagesAreDescribedByTheirId) {
   destroyTables(tables);
 }
 
-// A queue that has nothing but compute takes no other stage; validation hears of it.
+// A compute-only queue accepts no other stage; validation would report it.
 TEST_F(TablesTest, OnlyTheReadersThatThereAreWait) {
   ContextDesc contextDesc = this->contextDesc();
   realInstanceProc = contextDesc.getInstanceProcAddr;

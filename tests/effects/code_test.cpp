@@ -1,5 +1,5 @@
-// The compiled text of what is off is gone once its specialization constants are set: no branch and
-// no choice is left of it, and no instruction.
+// Once specialization constants are set, the compiled code of disabled effects is gone: no branch,
+// no selection and no instruction of it is left.
 #include <alpenglow/shaders/aerial_perspective_fragment.h>
 #include <alpenglow/shaders/aerial_perspective_fragment_lut.h>
 #include <alpenglow/shaders/aerial_perspective_lut_float.h>
@@ -79,8 +79,8 @@ Constants constantsOf(EffectFlags disabledEffects, bool first = false) {
   return constants;
 }
 
-/// As a driver has it before it makes code: one function, constants in place. `clean`: what can't
-/// run, and what nobody reads, is taken out.
+/// Specialized like a driver does: one function, constants in place. `clean`: unreachable and
+/// unused code is removed.
 Words specialized(const Words& text, const Constants& constants, bool clean = true) {
   spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_2);
   std::string said;
@@ -198,7 +198,7 @@ TEST(EffectCode, SharedCodeGoesWithItsLastEffect) {
   EXPECT_TRUE(isLess(text, kReflection | kIrradiance));
 }
 
-// Text of its own for tables that lack a table.
+// Separate shaders for tables that lack a table.
 TEST(EffectCode, AbsentTablesAreNotDeclared) {
   const passes::SkyVariant plain;
   constexpr EffectFlags kMultiple = effectBit(Effect::MultipleScattering);
@@ -263,7 +263,7 @@ TEST(EffectCode, HostShadersDeclareOnlyPresentTables) {
   EXPECT_EQ(bindingsOf(wordsOf(ALPENGLOW_TEXT(kHostNeither)), kSet), (Bindings{0, 1}));
 }
 
-// Both checks see what they are for.
+// Both checks detect what they look for.
 TEST(EffectCode, UnusedConstantsAreDetected) {
   Words text = wordsOf(ALPENGLOW_TEXT(kMomentSingle));
   EXPECT_TRUE(isLess(text, kRayleigh));

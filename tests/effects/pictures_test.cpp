@@ -1,4 +1,4 @@
-// What is left out leaves the rest as it was: light and pictures without effects.
+// Disabled effects don't change the rest: light and pictures without effects.
 #include <cmath>
 #include <cstdio>
 

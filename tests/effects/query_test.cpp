@@ -1,4 +1,4 @@
-// What the CPU answers from copies of tables without effects is what the device answers.
+// CPU and device give the same answers from tables with disabled effects.
 #include <alpenglow/query.h>
 
 #include <cmath>

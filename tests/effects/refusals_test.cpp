@@ -1,4 +1,4 @@
-// What is left out is refused in a sentence, and nothing is recorded of it.
+// Frames that need disabled effects are refused with a sentence, and record nothing.
 #include "tests/passes/light_shafts/light_shaft_fixture.h"
 
 namespace alpenglow::testing {
@@ -92,7 +92,7 @@ TEST_F(EffectRefusalsTest, DrawsThatNeedDisabledEffectsAreRefused) {
   EXPECT_EQ(badValue(picture(noSpace, baked, drawAt(59e3, -60))), "");
 }
 
-TEST_F(EffectRefusalsTest, LutsAndAirAreRefusedFromOutside) {
+TEST_F(EffectRefusalsTest, LutsAndAtmosphereAreRefusedFromOutside) {
   View* const view = makeView(sceneDesc(kViewEffects), baked);
   ResourceReport start, end;
   resourceReport(context(), &start);

@@ -55,7 +55,7 @@ class EffectSceneTest : public LightShaftTest {
   FrameState view_;
 };
 
-// Without aerosols the whole tables have them not either; molecules ask for fewer harmonics.
+// The complete tables have no aerosols either; molecules need fewer harmonics.
 TEST_F(EffectSceneTest, AbsentAerosolsDoNotChangeThePicture) {
   parameters.mie.present = false;
   Tables* const whole = tables("earth, black ground, clear", parameters);

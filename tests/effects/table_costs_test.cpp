@@ -1,4 +1,4 @@
-// What tables are without is made by nobody: pipelines, images, memory and dispatches of a bake.
+// Disabled effects of tables create nothing: pipelines, images, memory and dispatches of a bake.
 #include <alpenglow/table_limits.h>
 #include "tests/passes/sky/sky_fixture.h"
 #include "tests/tables/bake_fixture.h"
@@ -81,7 +81,7 @@ class TableCostsTest : public DeviceTest {
             end.bytes - start.bytes};
   }
 
-  /// What `whole` costs more than tables without these.
+  /// What `whole` costs more than tables with these disabled effects.
   static void expectGone(const TableCost& whole, const TableCost& part, const TableCost& gone) {
     EXPECT_EQ(whole.pipelines - part.pipelines, gone.pipelines);
     EXPECT_EQ(whole.variants - part.variants, gone.variants);
@@ -107,7 +107,7 @@ TEST_F(TableCostsTest, DefaultTablesHaveEveryObject) {
   EXPECT_EQ(whole().imagesLeft, 3u);
 }
 
-// They are terms of a sum: no object is theirs. Their text is: text_test.cpp.
+// They are terms of a sum and own no object. code_test.cpp tests their code.
 TEST_F(TableCostsTest, MoleculesAndAbsorptionCostNoObjects) {
   expectGone(whole(), cost(kRayleigh), {});
   expectGone(whole(), cost(kAbsorption), {});

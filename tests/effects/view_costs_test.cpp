@@ -1,4 +1,4 @@
-// What views are without is made by nobody: pipelines, images and memory, and a frame's dispatches
+// Disabled effects of views create nothing: pipelines, images and memory, and a frame's dispatches
 // and draws.
 #include "atmosphere/passes/view_cost.h"
 #include "atmosphere/tables/table_set.h"
@@ -91,7 +91,7 @@ class ViewCostsTest : public LightShaftTest {
   }
 };
 
-// Six ways of pixels: two of ground, three of the disc, two without air; the LUT's own besides.
+// Six kinds of pixels: two with ground, three with the disc, two without atmosphere; and the LUT's.
 // With a LUT nothing that integrates is compiled.
 TEST_F(ViewCostsTest, PixelKindsNeverDrawnHaveNoPipeline) {
   expectAdded(disabledEffects(0, kLut), {7, 2, 2 * kSkyLut});
@@ -103,7 +103,7 @@ TEST_F(ViewCostsTest, PixelKindsNeverDrawnHaveNoPipeline) {
 }
 
 // Of tables that have no LUT from space each comes twice, but for views that never go there.
-TEST_F(ViewCostsTest, StandardIntegratesAboveTheAir) {
+TEST_F(ViewCostsTest, StandardIntegratesAboveTheAtmosphere) {
   Tables* standard = nullptr;
   ASSERT_EQ(createTables(context(), preset("earth"), smallTables(), &standard), Status::Ok)
       << message();
@@ -128,13 +128,13 @@ TEST_F(ViewCostsTest, WithoutSpaceLutsAreHalfAsLarge) {
               {4, 5, kSkyLut + 3 * kAirLut / 2});
 }
 
-TEST_F(ViewCostsTest, WhatTablesAreWithoutALutIsWithout) {
+TEST_F(ViewCostsTest, LutsLackWhatTheirTablesLack) {
   expectAdded(disabledEffects(kMie | kViewEffects, kLut), {2, 1, kSkyLut / 2});
   expectAdded(disabledEffects(kMultiple | kViewEffects, kLut), {2, 2, kSkyLut});
 }
 
-// From its LUT: three images, what fills them, what looks light up.
-TEST_F(ViewCostsTest, AirInFrontOfASceneOwnsItsLut) {
+// From its LUT: three images, the pipeline that fills them, the one that reads them.
+TEST_F(ViewCostsTest, AerialPerspectiveOwnsItsLut) {
   constexpr EffectFlags kPlain = kGround | kDisc;
   expectAdded(disabledEffects(kPlain, kIntegrate, AerialPerspective::Integrate), {2 + 1, 0, 0});
   expectAdded(disabledEffects(kPlain, kLut, AerialPerspective::On),
@@ -144,8 +144,8 @@ TEST_F(ViewCostsTest, AirInFrontOfASceneOwnsItsLut) {
   expectAdded(disabledEffects(kPlain, kLut), {3, 2, 2 * kSkyLut});
 }
 
-// The shadow map, blocks, the surface with and without a LUT; map; their frame and blocks. Sums
-// follow with the first frame, which knows the extent.
+// Shadow map, blocks, light-volume mesh with and without a LUT; the map's image; frame and blocks.
+// Sums follow with the first frame, which knows the extent.
 TEST_F(ViewCostsTest, LightShaftsHaveTheirOwn) {
   ContextDesc plain = contextDesc();
   plain.capabilities = kCapabilitySky | kCapabilityAerialPerspective | kCapabilityLightShafts;
@@ -191,7 +191,7 @@ TEST_F(ViewCostsTest, DisabledEffectsRecordNothing) {
   plain.shafts = false;
   rigOf(plain, kExtent);
   rigOf(shaded, kExtent);
-  // What follows the extent of the scene's depth is made by the first frame.
+  // The first frame makes what depends on the extent of the scene's depth.
   const ResourceReport before = reportOf(context());
   draw(shaded, looking);
   const ResourceReport made = reportOf(context());

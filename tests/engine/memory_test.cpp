@@ -228,7 +228,7 @@ TEST_F(MemoryTest, MappingThatNobodyAskedForIsIgnored) {
   EXPECT_EQ(buffers_[0].mapped, nullptr);
 }
 
-TEST_F(MemoryTest, DeviceLocalIsDoneWithoutWhereThereIsNone) {
+TEST_F(MemoryTest, DeviceLocalIsOptional) {
   mock_.memory.memoryTypes[0].propertyFlags = 0;
   make(1, 0);
   EXPECT_EQ(bind(kLocal), Status::Ok);
@@ -243,7 +243,7 @@ TEST_F(MemoryTest, NoCommonMemoryTypeIsUnsupported) {
   EXPECT_NE(mock_.lastDiagnostic().find("among the types 0x0"), std::string::npos);
 }
 
-TEST_F(MemoryTest, HostVisibleIsNotDoneWithout) {
+TEST_F(MemoryTest, HostVisibleIsRequired) {
   mock_.memory.memoryTypes[1].propertyFlags = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT;
   make(0, 1);
   EXPECT_EQ(bind(kHost), Status::Unsupported);

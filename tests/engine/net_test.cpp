@@ -1,5 +1,5 @@
-// Proof that the net holds: each test does something wrong and must hear of it. Without these, a
-// validation layer that has fallen silent would look like success.
+// Tests of the validation layers: each test makes an error and must get a message. Otherwise silent
+// layers would look like success.
 #include <alpenglow/shaders/test_blur.h>
 #include <alpenglow/shaders/test_pattern.h>
 #include <gtest/gtest-spi.h>

@@ -199,10 +199,10 @@ def self_test():
     cases = [  # path, include line, whether it must be refused
         ("engine/device.h", "#include <alpenglow/types.h>", False),
         ("engine/device.h", "#include <alpenglow/context.h>", True),
-        ("engine/device.cpp", '#include "atmosphere/tables/plan.h"', True),
+        ("engine/device.cpp", '#include "atmosphere/tables/table_set.h"', True),
         ("engine/device.cpp", '#include "engine/headless/impl.h"', True),
-        ("atmosphere/tables/plan.h", '#include "engine/pipeline.h"', False),
-        ("atmosphere/tables/plan.h", '#  include "atmosphere/passes/sky.h"', True),
+        ("atmosphere/tables/table_set.h", '#include "engine/pipeline.h"', False),
+        ("atmosphere/tables/table_set.h", '#  include "atmosphere/passes/sky_pass.h"', True),
         ("atmosphere/tables/bake_graph.h", '#include "atmosphere/passes/sky_view_lut.h"', True),
         ("atmosphere/camera/camera.cpp", '#include "atmosphere/passes/sky_view_lut.h"', True),
         ("atmosphere/passes/sky_view_lut.cpp", '#include "atmosphere/camera/camera_math.h"', False),

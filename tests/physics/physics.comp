@@ -19,7 +19,8 @@ void main() {
   SkyViewParams view = SkyViewParams(1.5, 1.6, 1.0);
   result[2] = vec4(depthCoordinate(medium, shape, ray.h, ray.mu), segmentNode(segment, 0.5));
   result[3] = vec4(reflectedRadiance(medium.groundAlbedo, depth, depth),
-                   gridCoordinate(skyViewGrid(view, 128.0, 160.0), view, angleFromNadir(ray.mu, 0.5), 0.5, ray.hitsGround).x);
+                   gridCoordinate(skyViewGrid(view, 128.0, 160.0), view, angleFromNadir(ray.mu, 0.5), 0.5,
+                                  ray.hitsGround).x);
   AerialSegment aerial = aerialSegment(medium, aerialView(medium, view, ray.h), ray);
   result[4] = vec4(aerialU(aerial, 100.0), aerialTexelDistance(aerial, 3), aerialMeanDepth(result[0], 1.0), 0.0);
   result[1] = vec4(depth, miePhase(medium.mieAsymmetry, ray.nu));

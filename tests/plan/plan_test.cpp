@@ -150,7 +150,7 @@ TEST(Plan, CoversItsOwnRequest) {
   EXPECT_NE(reason, "");
 }
 
-TEST(Plan, TellsWhatChangesTakes) {
+TEST(Plan, ReportsWhatChangesRecreate) {
   const Plan plan = planOf(noon());
   std::string reason;
   const struct {

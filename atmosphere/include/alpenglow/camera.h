@@ -11,8 +11,8 @@ inline namespace v1_0 {
 /// centre, z to the north pole, x to latitude 0, longitude 0; metres, in double. All zero: the
 /// world is the planet frame. It may change each frame (floating origin).
 struct World {
-  double origin_m[3] = {};   ///< Of the world.
-  double axes[3][3] = {};    ///< World x, y and z: orthonormal, of either hand; 0: the planet's.
+  double origin_m[3] = {};   ///< The world's origin.
+  double axes[3][3] = {};    ///< World x, y and z, orthonormal, of either hand; 0: the planet's.
   double metersPerUnit = 0;  ///< Must be 0 or 1 in this version.
   double equatorialRadius_m = 0, polarRadius_m = 0;  ///< Ellipsoid of altitude 0. Must be 0.
 };

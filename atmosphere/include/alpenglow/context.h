@@ -13,15 +13,15 @@ inline namespace v1_0 {
 /// abandonFrame.
 struct Context;
 
-/// What the host wants to do. Bits; ask for what you use, each has its own requirements.
+/// What the host wants to do. Bits; ask only for what you use: each has its own requirements.
 enum Capability : uint32_t {
   kCapabilityBake = 1u << 0,  ///< Compute shaders that fill the tables, and probe queries.
   kCapabilitySky = 1u << 1,   ///< Graphics pipelines that draw sky and ground.
-  /// Aerial perspective over a host's scene: dualSrcBlend.
+  /// Aerial perspective over a host's scene. Needs dualSrcBlend.
   kCapabilityAerialPerspective = 1u << 2,
-  kCapabilityLightShafts = 1u << 3,  ///< Light shafts: depthClamp.
-  /// LightShaftMethod::ShadowVolume, with kCapabilityLightShafts: geometryShader,
-  /// shaderClipDistance, independentBlend.
+  kCapabilityLightShafts = 1u << 3,  ///< Light shafts. Need depthClamp.
+  /// LightShaftMethod::ShadowVolume. Needs kCapabilityLightShafts, geometryShader,
+  /// shaderClipDistance and independentBlend.
   kCapabilityShadowVolumes = 1u << 4,
 };
 using CapabilityFlags = uint32_t;
@@ -29,7 +29,7 @@ using CapabilityFlags = uint32_t;
 /// Device features beyond VkPhysicalDeviceFeatures that the library uses.
 enum DeviceFeature : uint32_t {
   kFeatureSynchronization2 = 1u << 0,  ///< VkPhysicalDeviceVulkan13Features::synchronization2.
-  kFeatureDynamicRendering = 1u << 1,  ///< Likewise; for shafts, and views that name no
+  kFeatureDynamicRendering = 1u << 1,  ///< Likewise; for light shafts, and views without a
                                        ///< VkRenderPass.
 };
 using DeviceFeatureFlags = uint32_t;
@@ -45,13 +45,13 @@ struct Requirements {
 /// Lets a host put SPIR-V of its own in place of a shader of ours: docs/shaders.md.
 struct ShaderHook {
   void* user = nullptr;
-  /// Asked for each shader of each pipeline, when it is made: by createTables, recordBake,
+  /// Called for each shader of each pipeline that is made: by createTables, recordBake,
   /// createView, recordProbe. `name` is the shader's in shaders.json, such as
-  /// "kSkyFragmentLut". True: `code`, `bytes` long, is used instead; it must live until the call
-  /// that asked returns. Null with false. Code that declares a resource that ours doesn't, or is of
-  /// another stage or group size, makes that call fail with InvalidArgument. Called from the thread
-  /// that made the call. Tables and views keep the pipelines that they have: recreate them to use
-  /// other code. Those of recordProbe stay with the context.
+  /// "kSkyFragmentLut". True: `code`, `bytes` long, is used instead; it must live until that
+  /// call returns. False: the library's own shader is used. Code that declares a resource that ours
+  /// doesn't, or is of another stage or group size, makes that call fail with InvalidArgument.
+  /// Called from the thread that made the call. Tables and views keep the pipelines that they have:
+  /// recreate them to use other code. Those of recordProbe stay with the context.
   bool (*replace)(void* user, const char* name, const uint32_t** code, size_t* bytes) = nullptr;
 };
 
@@ -63,8 +63,8 @@ struct ContextDesc {
   PFN_vkGetInstanceProcAddr getInstanceProcAddr = nullptr;
   CapabilityFlags capabilities = 0;         ///< 0: bake and sky, which every device has.
   Requirements enabled;                     ///< What the host really enabled on its device.
-  const uint32_t* queueFamilies = nullptr;  ///< Families that will touch our images.
-  uint32_t queueFamilyCount = 0;            ///< More than one makes images concurrent.
+  const uint32_t* queueFamilies = nullptr;  ///< Families that will use our images.
+  uint32_t queueFamilyCount = 0;            ///< Above 1: images have concurrent sharing mode.
   /// Stages of the host's shaders that bind our descriptor sets; 0: compute and fragment, which are
   /// always among them.
   VkShaderStageFlags setStages = 0;
@@ -99,14 +99,14 @@ ALPENGLOW_API void destroyContext(Context* context);
 /// call the frame is 1. A host that waits for each frame passes (n + 1, n).
 ALPENGLOW_API Status advanceFrame(Context* context, uint64_t submitting, uint64_t completed);
 
-/// The commands recorded in `frame` (above the completed one) will never execute, for example since
-/// the swapchain was lost: call it before the next frame is recorded. LUTs, shadow maps, uploads
-/// and bake slices of that frame count as not recorded. A bake continues before that frame's first
-/// slice; from the start if slices of later frames were recorded.
+/// The commands recorded in `frame` (above the completed one) will never execute, for example
+/// because the swapchain was lost: call it before the next frame is recorded. LUTs, shadow maps,
+/// uploads and bake slices of that frame count as not recorded. A bake continues before that
+/// frame's first slice; from the start if slices of later frames were recorded.
 ALPENGLOW_API Status abandonFrame(Context* context, uint64_t frame);
 
 /// What the context holds now; for reports and tests. Counters only ever rise, except `bytes`,
-/// `images` and `buffers`, which are what is alive.
+/// `images` and `buffers`, which count what exists.
 struct ResourceReport {
   uint64_t pipelines = 0;       ///< Made since the context was made.
   uint64_t shaderVariants = 0;  ///< Different (SPIR-V, specialization) pairs among them.

@@ -1,5 +1,5 @@
-// What can be simulated, and left out: a plan (alpenglow/plan.h) decides it from what a scene calls
-// for; a host may too.
+// Effects that can be simulated or left out. A plan (alpenglow/plan.h) chooses them for a scene; a
+// host may choose them itself.
 #pragma once
 
 #include <alpenglow/export.h>
@@ -13,12 +13,12 @@ enum class Effect : uint32_t {
   Rayleigh,            ///< Air molecules.
   Mie,                 ///< Aerosols.
   Absorption,          ///< The layer that only absorbs (ozone).
-  MultipleScattering,  ///< Paths of two events and more.
+  MultipleScattering,  ///< Paths of two or more events.
   GroundReflection,    ///< Light that the ground sends back into the atmosphere.
   GroundIrradiance,    ///< Sky light on surfaces; without it they are lit by the sun alone.
   Ground,              ///< The planet's surface, drawn.
   SunDisc,             ///< The sun's disc, drawn.
-  AerialPerspective,   ///< Air in front of a host's scene.
+  AerialPerspective,   ///< The atmosphere in front of a host's scene.
   LightShafts,         ///< Shadows of casters in the atmosphere.
   SpaceViews,  ///< Cameras above the top of the atmosphere, and pixels that miss the atmosphere.
   Twilight,    ///< The sun from the horizon down to 18 degrees below it.
@@ -30,12 +30,12 @@ inline constexpr uint32_t kEffectCount = 13;
 using EffectFlags = uint32_t;
 constexpr EffectFlags effectBit(Effect effect) { return 1u << static_cast<uint32_t>(effect); }
 
-/// Those that tables hold: TableDesc::disabledEffects.
+/// Effects that tables hold: the bits of TableDesc::disabledEffects.
 inline constexpr EffectFlags kTableEffects =
     effectBit(Effect::Rayleigh) | effectBit(Effect::Mie) | effectBit(Effect::Absorption) |
     effectBit(Effect::MultipleScattering) | effectBit(Effect::GroundReflection) |
     effectBit(Effect::GroundIrradiance);
-/// Those that only views draw: ViewDesc::disabledEffects has these besides.
+/// Effects that only views draw: the bits of ViewDesc::disabledEffects.
 inline constexpr EffectFlags kViewEffects =
     effectBit(Effect::Ground) | effectBit(Effect::SunDisc) | effectBit(Effect::SpaceViews);
 

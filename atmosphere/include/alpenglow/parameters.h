@@ -7,8 +7,8 @@
 namespace alpenglow {
 inline namespace v1_0 {
 
-/// Wavelengths baked together: one group fits the colour channels of a texture. The only place
-/// where the number stands (its twin in the shaders is the type Spectrum of physics/types.glsl).
+/// Wavelengths baked together: one group fits the colour channels of a texture. The number is
+/// defined here and, for the shaders, in the type Spectrum of physics/types.glsl.
 inline constexpr uint32_t kSpectrumSize = 3;
 
 /// One value for each wavelength of a group, in the order of Parameters::wavelengths_nm.

@@ -1,4 +1,4 @@
-// What a scene calls for: a request in, descriptions out. A plan says which effects are simulated,
+// What a scene needs: a request in, descriptions out. A plan says which effects are simulated,
 // over which part of the tables, at which resolution and by which method, and for each choice why
 // and what it saves. Pure functions; no Vulkan call; thread-safe.
 #pragma once
@@ -8,31 +8,31 @@
 namespace alpenglow {
 inline namespace v1_0 {
 
-/// Auto: as the plan finds best.
+/// Auto: the plan decides.
 enum class Force : uint32_t { Auto, On, Off };
 
 /// What a scene may ask for while its plan holds. Zero is the default of each member.
 struct PlanRequest {
-  TableDesc
-      tables;  ///< Values that are given (solver, orders, quality, sizes, format ...) are kept.
+  /// Values that are given (solver, orders, quality, sizes, format ...) are kept.
+  TableDesc tables;
   /// Values that are given are kept: projection, formats, lightShafts, methods that are not the
   /// default.
   ViewDesc view;
   double altitudeFrom_m = 0.0;  ///< Of the camera.
   double altitudeTo_m = 0.0;    ///< 0: no limit.
-  /// Of the sun, seen from the camera's places and from the ground in view; radians. Both 0: any.
+  /// Of the sun, at the camera's positions and at the ground in view; radians. Both 0: any.
   double sunElevationFrom = 0.0, sunElevationTo = 0.0;
   bool sunFixed = false;  ///< With both of the above equal, 0 too: this elevation and no other.
-  bool casters = false;   ///< Of light shafts.
+  bool casters = false;   ///< The scene has casters of light shafts.
   VisibilityFlags visible = 0;  ///< 0: anything.
-  double sunDiscRadius = 0.0;   ///< The greatest that is drawn; 0: none.
-  /// Factor from radiance (for Parameters::solarIrradiance) to a picture whose white is 1: the
-  /// greatest that is used. Light of less than half an 8-bit step under it can't be seen. 0: any.
+  double sunDiscRadius = 0.0;   ///< Greatest radius that is drawn; 0: none.
+  /// Greatest factor from radiance (for Parameters::solarIrradiance) to a picture whose white is 1.
+  /// Light that it leaves below half an 8-bit step is invisible. 0: any.
   double exposure = 0.0;
   double errorTarget = 0.0;    ///< 95th percentile of the relative error; 0: 0.01.
-  uint64_t budgetBytes = 0;    ///< Of device memory that stays; 0: none.
-  double budgetSeconds = 0.0;  ///< Of a bake; 0: none.
-  /// Of the host's own timings of recordBake; 0: that of lavapipe on 2 cores (docs/plan.md).
+  uint64_t budgetBytes = 0;    ///< Of device memory that stays; 0: no limit.
+  double budgetSeconds = 0.0;  ///< Of a bake; 0: no limit.
+  /// Time of a work unit in the host's recordBake; 0: that of lavapipe on 2 cores (docs/plan.md).
   double secondsPerUnit = 0.0;
   Force effects[kEffectCount] = {};  ///< By Effect.
 };
@@ -40,11 +40,11 @@ struct PlanRequest {
 /// What something costs, or saves.
 struct PlanCost {
   uint64_t bytes = 0;      ///< Of images that stay.
-  uint64_t bakeBytes = 0;  ///< Of images that a bake takes besides.
+  uint64_t bakeBytes = 0;  ///< Of images that only a bake needs.
   uint64_t texels = 0;     ///< Of images that stay.
   uint64_t images = 0;     ///< That stay.
   uint64_t pipelines = 0;
-  uint64_t dispatches = 0;  ///< Of a bake in one piece, and of a frame.
+  uint64_t dispatches = 0;  ///< Of an unsliced bake, and of a frame.
   uint64_t units = 0;       ///< Of a bake: about one table fetch each.
 };
 
@@ -62,12 +62,12 @@ struct PlanChoice {
 inline constexpr uint32_t kMaxPlanChoices = kEffectCount + 12;
 inline constexpr uint32_t kMaxPlanImages = 12;
 
-/// Descriptions that serve a request, and why they are as they are.
+/// Descriptions that serve a request, and the reasons.
 struct Plan {
   PlanRequest request;
   TableDesc tables;  ///< For createTables.
   /// For createView; the host adds its formats. `aerialPerspective` and `lightShafts.method` are
-  /// Off where the plan has them off.
+  /// Off where the plan disables them.
   ViewDesc view;
   CapabilityFlags capabilities = 0;  ///< What a context for it needs.
 
@@ -75,7 +75,7 @@ struct Plan {
   double expectedBakeSeconds = 0.0;  ///< By PlanRequest::secondsPerUnit.
   bool errorMet = false;             ///< expectedError <= PlanRequest::errorTarget.
   bool budgetMet = false;
-  PlanCost cost;   ///< Of all of it.
+  PlanCost cost;   ///< Of the whole plan.
   PlanCost whole;  ///< Of the default: everything, everywhere, at the default quality.
   PlanChoice choices[kMaxPlanChoices];
   uint32_t choiceCount = 0;          ///< kEffectCount and more.
@@ -83,21 +83,21 @@ struct Plan {
   uint32_t imageCount = 0;
 };
 
-/// Plans. Solver::Moments profits; other solvers have their effects planned but for those of
-/// tables. On failure `sink` gets a sentence, and `out` is as it was: InvalidArgument where the
+/// Makes a plan. For solvers other than Solver::Moments the effects of tables are not planned. On
+/// failure `sink` gets a sentence, and `out` is as it was: InvalidArgument where the
 /// parameters, the request or its tables are wrong, OutOfHostMemory.
 ALPENGLOW_API Status makePlan(const Parameters& parameters, const PlanRequest& request, Plan* out,
                               const DiagnosticSink& sink);
 
 /// What a frame may show of sky, ground, space and the sun's disc: conservative, as recordSky finds
-/// it. kVisibleScene is the host's to add. Anything where the frame would be refused.
+/// it. The host adds kVisibleScene. All other flags where beginFrame would refuse the frame.
 ALPENGLOW_API VisibilityFlags visibleFrom(const Parameters& parameters, Projection projection,
                                           const FrameDesc& frame);
 
-/// What a change of plans takes. Bits.
+/// What must be recreated when the plan changes. Bits.
 enum RecreateFlag : uint32_t {
   kRecreateTables = 1u << 0,  ///< A bake.
-  kRecreateView = 1u << 1,    ///< Pipelines and images of the view and its shafts; no bake.
+  kRecreateView = 1u << 1,    ///< Pipelines and images of the view and its light shafts; no bake.
 };
 using RecreateFlags = uint32_t;
 

@@ -12,8 +12,8 @@ enum class QueryKind : uint32_t {
   Irradiance,  ///< Light on a horizontal surface that faces upwards.
 };
 
-/// Angles in radians, about the observer's vertical. Of an irradiance, all that belongs to a ray
-/// must be 0.
+/// Angles in radians, about the observer's vertical. For an irradiance, the members of a ray must
+/// be 0.
 struct ProbeQuery {
   QueryKind kind = QueryKind::Ray;
   uint32_t light = 0;  ///< Index of TableDesc::lights. Must be 0 in this version.
@@ -31,7 +31,7 @@ struct ProbeAnswer {
   bool hitsGround = false;
   Spectrum transmittance;
   Spectrum skyRadiance;     ///< Light scattered in the atmosphere along the segment.
-  Spectrum groundRadiance;  ///< Light reflected by the uniform ground, dimmed on the way.
+  Spectrum groundRadiance;  ///< Light reflected by the uniform ground, times transmittance.
   Spectrum direct;          ///< Irradiance of the sun.
   Spectrum sky;             ///< Irradiance of the sky without the sun.
 };
@@ -41,18 +41,18 @@ inline constexpr VkDeviceSize kProbeAnswerBytes = 64;
 
 /// Records the evaluation of `count` queries, outside rendering scopes; the raw answers go to
 /// `buffer` (usage STORAGE and host-visible or copied by the host), kProbeAnswerBytes each, from
-/// offset 0, and are made visible to host reads and transfers. Geometry is taken in double on the
-/// CPU, now. NotReady until the tables are Recorded; InvalidArgument with a sentence that names the
-/// query by its index and the field.
+/// offset 0, and are made visible to host reads and transfers. The geometry is computed in double
+/// on the CPU during the call. NotReady until the tables are Recorded; InvalidArgument with a
+/// sentence that names the query by its index and the field.
 ALPENGLOW_API Status recordProbe(const Tables* tables, VkCommandBuffer commands,
                                  const ProbeQuery* queries, uint32_t count, VkBuffer buffer);
 
 /// Turns what recordProbe wrote, read back after the GPU finished, into plain answers. With null
 /// `deviceAnswers` they are computed on the calling thread, in float, from the host copies of
-/// TableDesc::cpuQueries, with the functions that recordProbe runs: the device's answers but for
-/// rounding and the precision of its mathematical functions and filter. On lavapipe they agree
-/// within 1.4e-5 of the value (api_tests --gtest_filter=QueryTest.TheCpu*); a GPU whose filter has
-/// 8-bit weights is coarser than the CPU. Then NotReady until the tables are Complete,
+/// TableDesc::cpuQueries, with the functions that recordProbe runs: they differ from the
+/// device's by rounding and by the precision of its mathematical functions and filter. On lavapipe
+/// they agree within 1.4e-5 of the value (api_tests --gtest_filter=QueryTest.TheCpu*); a GPU whose
+/// filter has 8-bit weights is coarser than the CPU. Then NotReady until the tables are Complete,
 /// InvalidArgument for tables that keep no copies and Unsupported for other solvers than Moments;
 /// with CpuQueries::Light, rays are answered with skyRadiance 0. On failure no answer is written.
 /// Any number of threads may ask the same tables while no other call changes them.

@@ -6,9 +6,9 @@
 namespace alpenglow {
 inline namespace v1_0 {
 
-/// Of TableSizes::degree.
+/// Greatest TableSizes::degree.
 inline constexpr uint32_t kMaxDegree = 47;
-/// Of TableSizes::stepCount.
+/// Greatest TableSizes::stepCount.
 inline constexpr uint32_t kMaxStepCount = 1024;
 /// Texels across a layer of the table of moments: the nodes, and two between any two of them.
 constexpr uint32_t fieldTexels(uint32_t nodes) { return 3 * (nodes - 1) + 1; }

@@ -22,11 +22,11 @@ enum class MieStorage : uint32_t {
 enum class Solver : uint32_t {
   Moments,   ///< Light on nodes of (r, mu_s); rays are integrated: docs/moment-solver.md.
   Standard,  ///< The paper's Algorithm 4.1; tables of rays.
-  // Simpler models, each as its paper has it, to compare with: docs/baselines.md.
+  // Simpler models for comparison, each as published: docs/baselines.md.
   HoffmanPreetham,  ///< 2002: air of constant density, one event, in closed form. No table.
   ONeil,            ///< 2005: one event, TableSizes::stepCount points along a ray.
   Schafhitzel,      ///< 2007: one event, a table of (r, mu, mu_s) without the azimuth.
-  Hillaire,         ///< 2020: a sky-view table each frame, multiple scattering in 32 x 32 texels.
+  Hillaire,         ///< 2020: a sky-view LUT each frame, multiple scattering in 32 x 32 texels.
 };
 /// Of Solver::Moments: points of its curve of error against cost; docs/accuracy.md has both,
 /// measured.
@@ -51,7 +51,7 @@ struct TableSizes {
   uint32_t azimuths = 0;              ///< Over half a turn.
   uint32_t degree = 0;                ///< Of the spherical harmonics, at most 47.
   uint32_t sourceGamma = 0, sourcePsi = 0;  ///< Directions of the table of sources.
-  uint32_t solverPanels = 0;  ///< Panels of 2 points for each smooth stretch of a ray: of the bake,
+  uint32_t solverPanels = 0;  ///< Panels of 2 points for each smooth segment of a ray: of the bake,
   uint32_t viewPanels = 0;    ///< and of a view ray.
   // Of Solver::Standard, in texels; 0: the paper's, T 256x64 (mu x r), E 64x16 (mu_s x r) and
   // S 32x128x32x8 (r x mu x mu_s x nu). Each at least 2; scatteringMu at least 4 and even.
@@ -90,7 +90,7 @@ struct TableDesc {
   TableSizes sizes;                             ///< What is given beats the quality.
   LightDesc lights[kMaxLights];  ///< This version refuses all but lights[0] of kind Star.
   /// Bits of kTableEffects: nothing is baked, allocated or compiled for these. Views and shaders
-  /// that read the tables are without the same. Of Solver::Moments. Default: none left out.
+  /// that read the tables lack the same effects. Of Solver::Moments. Default: none left out.
   EffectFlags disabledEffects = 0;
   /// Of Solver::Moments: zenith angles of the sun, radians, seen from wherever light is asked for;
   /// the tables reach beyond them as far as rays do. Both 0: any. Light of other sun elevations is
@@ -117,7 +117,7 @@ ALPENGLOW_API const char* modelLimit(Solver solver);
 /// Checks parameters and sizes, allocates, and records nothing. The tables are then Ok to bake or
 /// to upload; on a context without kCapabilityBake only to upload, and they take no scratch memory.
 /// Those of the simpler models are only baked: they have no TableId.
-/// `tables` is destroyed with destroyTables, before its context.
+/// destroyTables, or destroyContext, destroys `*out`.
 ALPENGLOW_API Status createTables(Context* context, const Parameters& parameters,
                                   const TableDesc& desc, Tables** out);
 
@@ -125,7 +125,7 @@ ALPENGLOW_API Status createTables(Context* context, const Parameters& parameters
 /// is ignored.
 ALPENGLOW_API void destroyTables(Tables* tables);
 
-/// One pass of the bake.
+/// What a call of recordBake has done, and how far the bake is.
 struct BakeProgress {
   bool done = false;
   bool passFinished = false;   ///< This call recorded the pass's last tile.
@@ -157,11 +157,11 @@ enum class TablesState : uint32_t {
 
 /// Index of TablesInfo::images.
 enum TableId : uint32_t {
-  kTableOpticalDepth,  ///< ln(1 + 1e5 tau), T = exp(-tau) towards the top: x mu, y r. Either
-                       ///< solver; of Moments tau times the shell's thickness over the ray's
+  kTableOpticalDepth,  ///< ln(1 + 1e5 tau), T = exp(-tau) towards the top: x mu, y r. Both
+                       ///< solvers; of Moments tau times the shell's thickness over the ray's
                        ///< length.
   kTableMoments,       ///< Mean radiance, its second moments and E, five tables below each other:
-                  ///< x mu_s, y r (shaders/glsl/physics/field.glsl). Moments; the next as well.
+                       ///< x mu_s, y r (shaders/glsl/physics/field.glsl). Moments; the next too.
   kTableSource,        ///< Light that aerosols scatter, as a ratio, into angle gamma from the sun
                        ///< and azimuth psi about it: x gamma + gammas psi, y mu_s, z r, at the
                        ///< nodes.
@@ -198,8 +198,8 @@ struct TablesInfo {
 ALPENGLOW_API Status tablesInfo(const Tables* tables, TablesInfo* out);
 
 /// Records a copy into `buffer` (usage TRANSFER_DST), tightly packed from `offset` (a multiple of
-/// 16). Legal when the table is finished: T, E, S and the single Mie once the bake is done; those
-/// of an order, with TableDesc::keepOrders, right after the pass that finished them ("dS n"),
+/// 16). Legal when the table is finished: tables of all orders once the bake is done; those
+/// of one order, with TableDesc::keepOrders, right after the pass that finished them ("dS n"),
 /// before the next recordBake. The copy is made visible to the host's reads. NotReady otherwise.
 /// Unsupported for a table that this description doesn't have.
 ALPENGLOW_API Status recordTableReadback(Tables* tables, VkCommandBuffer commands, TableId id,

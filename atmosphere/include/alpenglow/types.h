@@ -41,9 +41,9 @@ struct Diagnostic {
 /// Called on the thread that made the failing call; the library starts no threads.
 using DiagnosticFn = void (*)(void* user, const Diagnostic& diagnostic);
 
-/// Where sentences go: that of the context for every call that knows one, else the one that a
-/// function takes. A null `report` discards them. Every failing call reports one Error. A warning
-/// is reported once for each object.
+/// Where sentences go. Calls on a context or its objects use the context's sink; other functions
+/// take one. A null `report` discards them. Every failing call reports one Error. A warning is
+/// reported once for each object.
 struct DiagnosticSink {
   DiagnosticFn report = nullptr;
   void* user = nullptr;

@@ -23,7 +23,7 @@ enum class LightShaftMethod : uint32_t {
   /// Volumetric Shadows using Polygonal Light Volumes", HPG). The recommended method.
   LightVolume,
   /// Shadow volumes of silhouette edges, from a geometry shader: Bruneton & Neyret 2008, section 5;
-  /// ZP+ of Hornus et al. 2005. Nested shadows count twice. PlanRequest kCapabilityShadowVolumes.
+  /// ZP+ of Hornus et al. 2005. Nested shadows count twice. Needs kCapabilityShadowVolumes.
   ShadowVolume,
   /// Steps along each ray, each tested against the shadow map.
   RayMarch,
@@ -37,7 +37,7 @@ struct LightShaftDesc {
   uint32_t stepCount = 0;      ///< RayMarch: steps of a ray, at most 4096; 0: 32.
   uint32_t listLength = 0;     ///< Must be 0 in this version.
   /// Share of multiple scattering that a ray loses when it loses all of its single scattering, at
-  /// most 1; 0: 0.7, the nearest to path-traced mountains; below 0: none. Not ShadowVolume.
+  /// most 1; 0: 0.7, the nearest to path-traced mountains; below 0: none. ShadowVolume ignores it.
   double multipleLoss = 0.0;
   bool hostPipelines = false;  ///< Must be false in this version.
   bool closed = false;  ///< Casters are closed surfaces, counter-clockwise seen from outside: the
@@ -78,7 +78,7 @@ struct ViewDesc {
   ColorSpace color = ColorSpace::Rec709;
   SkyMethod sky = SkyMethod::Lut;
   AerialPerspective aerialPerspective = AerialPerspective::Off;  ///< Not for fisheyes.
-  /// Need aerial perspective and Solver::Moments.
+  /// Light shafts need aerial perspective and Solver::Moments.
   LightShaftDesc lightShafts;
   uint32_t skyLightDegree = 0;  ///< Must be 0 in this version, as the next three.
   uint32_t environmentSize = 0;
@@ -94,14 +94,15 @@ struct ViewDesc {
   /// Must be 0 in this version: LUTs are reused only where they are exact.
   double lutTolerance = 0.0;
   uint32_t lutFrames = 0;  ///< Must be 0 or 1 in this version.
-  /// That read our LUTs and shadow map; 0: compute and fragment. Always includes what the view
-  /// itself needs.
+  /// Stages that read our LUTs and shadow map; 0: compute and fragment. Always includes what the
+  /// view itself needs.
   VkPipelineStageFlags2 readerStages = 0;
 };
 
 /// Derives solver, effects and the LUTs' shapes from `tables`, which need not be baked, and makes
 /// images and pipelines: the slow part. Any thread. The view survives resizes, and draws with other
-/// tables of the same solver, quality, storage and effects. Moments: of any quality.
+/// tables of the same solver, MieStorage and effects, of any quality and size (Solver::Standard
+/// with a sky-view LUT: of the same scatteringMu and scatteringNu).
 ALPENGLOW_API Status createView(Context* context, const Tables* tables, const ViewDesc& desc,
                                 View** out);
 
@@ -166,7 +167,7 @@ struct FrameDesc {
 /// Index of FrameWork::images. kViewSceneDepth is the host's own, in the state that it must have
 /// from recordLightShafts to recordSky.
 enum ViewImage : uint32_t {
-  kViewSkyLut,     ///< Light that needs no phase function of aerosols.
+  kViewSkyLut,     ///< Sky-view LUT: light that needs no phase function of aerosols.
   kViewSkyLutMie,  ///< Single scattering of aerosols, without their phase function.
   kViewAerialPerspectiveLut0,
   kViewAerialPerspectiveLut1,
@@ -196,16 +197,17 @@ enum VisibilityFlag : uint32_t {
 };
 using VisibilityFlags = uint32_t;
 
-/// Descriptor sets of a view, in the order in which its own pipelines bind them; null: not had.
+/// Descriptor sets of a view, in the order in which its own pipelines bind them; null: the
+/// view has no such set.
 enum ViewSet : uint32_t {
   kViewSetTables,             ///< alpenglow/atmosphere.glsl.
   kViewSetSky,                ///< Albedo map 0, sky-view LUT 1 and 2, scene depth 3.
-  kViewSetAerialPerspective,  ///< alpenglow/aerial_perspective.glsl: the LUT's images at 0, 1, 2.
+  kViewSetAerialPerspective,  ///< Aerial-perspective LUT 0, 1, 2; for the library's own shaders.
   kViewSetLightShafts,        ///< alpenglow/light_shafts.glsl.
   kViewSetCount
 };
 
-/// What beginFrame answers; all zero when it fails.
+/// What beginFrame fills in; all zero when it fails.
 struct FrameWork {
   RecordFlags record = 0;       ///< The record functions that will record something this frame.
   VisibilityFlags visible = 0;  ///< Conservative; kVisibleScene with a scene depth.
@@ -218,9 +220,9 @@ struct FrameWork {
   ImageInfo images[kViewImageCount];  ///< By ViewImage.
 };
 
-/// CPU only: fixes this frame for the view. Makes what follows the extent of the scene's depth
-/// again when that has changed. On failure the record functions of this frame record nothing and
-/// return NotReady, so that one check suffices; NotReady also while the tables are not baked.
+/// CPU only: fixes this frame for the view. Recreates what depends on the extent of the scene's
+/// depth when that extent has changed. On failure the record functions of this frame record nothing
+/// and return NotReady, so that one check suffices; NotReady also while the tables are not baked.
 /// `work` may be null. A view may begin again within a frame: what was recorded before stays valid.
 ALPENGLOW_API Status beginFrame(View* view, const FrameDesc& desc, FrameWork* work);
 
@@ -249,7 +251,7 @@ ALPENGLOW_API void placeCaster(const CasterPass& pass, VkCommandBuffer commands,
 
 /// What the host's own pipelines need.
 struct ViewInfo {
-  VkDescriptorSetLayout setLayouts[kViewSetCount] = {};  ///< Null: not had.
+  VkDescriptorSetLayout setLayouts[kViewSetCount] = {};  ///< Null: the view has no such set.
 };
 ALPENGLOW_API Status viewInfo(const View* view, ViewInfo* out);
 

@@ -1,12 +1,12 @@
 // What a host's own shaders include to light a scene with Alpenglow's tables. Compile with the folder
-// above on the include path and bind tableSet() at set ALPENGLOW_SET (0 unless defined before). For tables
-// of Solver::Standard define ALPENGLOW_SOLVER_STANDARD, and ALPENGLOW_MIE_PACKED as true for those with
+// above on the include path and bind TablesInfo::set at set ALPENGLOW_SET (0 unless defined before).
+// For tables of Solver::Standard define ALPENGLOW_SOLVER_STANDARD, and ALPENGLOW_MIE_PACKED as true for those with
 // MieStorage::Packed (a bool, may be a specialization constant; false unless defined before); for those of a
 // simpler model ALPENGLOW_SOLVER_HOFFMAN_PREETHAM, _ONEIL, _SCHAFHITZEL or _HILLAIRE.
 //
 // For tables made without effects (TableDesc::disabledEffects) define ALPENGLOW_WITHOUT_MULTIPLE or, without
-// Mie, ALPENGLOW_WITHOUT_SOURCE: the binding of a table that isn't there must not be declared. The macros of
-// physics/effects.glsl, defined as false or as specialization constants, take away what else is not wanted.
+// Mie, ALPENGLOW_WITHOUT_SOURCE: the binding of a missing table must not be declared. The macros of
+// physics/effects.glsl, defined as false or as specialization constants, disable the other effects.
 //
 // Every answer is per unit solar irradiance, in the channels of the tables: multiply it with the
 // sun's irradiance. Distances are metres, directions unit vectors, `up` the observer's vertical.
@@ -44,8 +44,8 @@ Ray alpenglowRay(vec3 up, float altitude, vec3 view, vec3 sun) {
                  dot(view, sun));
 }
 
-// The vertical and the altitude `offset` metres from an observer whose are given: for points of a scene, and
-// for orthographic cameras, each pixel of which has an observer of its own. Below the ground it is altitude 0.
+// Moves an observer by `offset` metres, and updates its vertical and altitude: for points of a scene, and for
+// orthographic cameras, each pixel of which has an observer of its own. Below the ground the altitude is 0.
 void alpenglowMoveObserver(vec3 offset, inout vec3 up, inout float altitude) {
   float d = length(offset);
   vec3 there = up * (alpenglowMedium.bottomRadius + altitude) + offset;
@@ -75,7 +75,7 @@ Spectrum alpenglowTransmittance(Ray ray, float distance_) {
 }
 
 // Aerial perspective: radiance scattered in the atmosphere between the observer and a point of the ray, and
-// the transmittance to dim what is there with. Use it before blending for transparent objects.
+// the transmittance of that segment. Use it before blending for transparent objects.
 Spectrum alpenglowRadianceToPoint(Ray ray, float distance_, out Spectrum transmittance) {
   float inside = alpenglowInside(ray, distance_);
 #ifdef ALPENGLOW_MARCHES
@@ -95,8 +95,8 @@ Spectrum alpenglowTransmittanceToSpace(Ray ray) {
   return ray.hitsGround ? SPECTRUM(0.0) : (ray.inAtmosphere ? t : SPECTRUM(1.0));
 }
 
-// Irradiance at an altitude inside the atmosphere where the sun's zenith cosine is muS: of the sun on
-// a surface facing it, and of the sky on a horizontal one.
+// Irradiance at an altitude inside the atmosphere where the sun's zenith cosine is muS: sunlight on a surface
+// that faces the sun, and sky light on a horizontal surface.
 void alpenglowSunAndSkyIrradiance(float altitude, float muS, out Spectrum sun, out Spectrum sky) {
   sun = alpenglowSunlight(altitude, muS);
   sky = alpenglowSkyIrradiance(altitude, muS);

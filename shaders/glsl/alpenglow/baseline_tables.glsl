@@ -1,5 +1,5 @@
-// The tables of the simpler models: a part of alpenglow/atmosphere.glsl. Light and optical depth come of one
-// march along a ray, but with Schafhitzel, who has a table of rays.
+// The tables of the simpler models: a part of alpenglow/atmosphere.glsl. Light and optical depth come from one
+// march along a ray, except for Schafhitzel's model, which has a table of rays.
 
 layout(set = ALPENGLOW_SET, binding = 1) uniform sampler2D alpenglowTransmittanceTable;
 Spectrum readTransmittance(vec2 uv) { return textureLod(alpenglowTransmittanceTable, uv, 0.0).rgb; }
@@ -66,8 +66,8 @@ Spectrum alpenglowLightOfRay(Ray ray) {
 }
 #endif
 
-// Sunlight, and the sky's light on a horizontal surface: that of isotropic light of mean radiance Psi_ms with
-// Hillaire; none with the others.
+// Sunlight, and sky light on a horizontal surface: with Hillaire that of isotropic light of mean radiance
+// Psi_ms; with the others 0.
 Spectrum alpenglowSunlight(float altitude, float muS) {
 #ifdef ALPENGLOW_SOLVER_HOFFMAN_PREETHAM
   return exp(-depthThroughAtmosphere(alpenglowMedium, muS)) * sunVisibility(alpenglowMedium, altitude, muS);

@@ -1,6 +1,6 @@
-// What recordLightShafts found out about a frame: whether surfaces and points of the atmosphere see the sun.
-// For a host's own fragment shaders bind lightShaftSet() at set ALPENGLOW_LIGHT_SHAFT_SET (1 unless defined
-// before). Positions are in metres from the camera, in axes parallel to the planet's frame.
+// Shadows of a frame's casters on surfaces and on points of the atmosphere. A host's own fragment shaders bind
+// FrameWork::sets[kViewSetLightShafts] at set ALPENGLOW_LIGHT_SHAFT_SET (1 unless defined before). Positions are
+// in metres from the camera, in axes parallel to the planet's frame.
 #ifndef ALPENGLOW_LIGHT_SHAFTS
 #define ALPENGLOW_LIGHT_SHAFTS
 
@@ -8,7 +8,7 @@
 #define ALPENGLOW_LIGHT_SHAFT_SET 1
 #endif
 
-// LightShaftMethod of alpenglow/light_shafts.h.
+// LightShaftMethod of alpenglow/view.h, minus 1: methodIndex of atmosphere/passes/light_shaft_frame.h.
 const int kLightVolume = 0;
 const int kShadowVolume = 1;
 const int kRayMarch = 2;
@@ -30,17 +30,17 @@ layout(set = ALPENGLOW_LIGHT_SHAFT_SET, binding = 0, std140) uniform AlpenglowLi
   vec4 rowStep;        // from texel to texel in a row: a unit vector; w: from row to row
   vec4 columnStep;     // from row to row: a unit vector
   vec4 pixels;         // ndc of a pixel: 2 / size, xy; method; 1: orthographic
-  vec4 aerialSkyView;       // AerialView of the camera: SkyViewParams, extinction_
-  vec4 aerialSun;         // horizontal unit vector towards the sun; startHeight
-  vec4 aerialHeight;      // height; metres that the surface lies behind what the sun meets
+  vec4 aerialSkyView;  // AerialView of the camera: SkyViewParams, extinction_
+  vec4 aerialSun;      // horizontal unit vector towards the sun; startHeight
+  vec4 aerialHeight;   // height; metres that the light-volume mesh lies behind what the sun meets
 } alpenglowLightShaft;
 
-// Depth, seen from the sun; the frame's results.
+// Depth from the sun; the sums and bounds of this frame.
 layout(set = ALPENGLOW_LIGHT_SHAFT_SET, binding = 1) uniform sampler2D alpenglowShadowMap;
 layout(set = ALPENGLOW_LIGHT_SHAFT_SET, binding = 2) uniform sampler2D alpenglowLightShaftSums;
 layout(set = ALPENGLOW_LIGHT_SHAFT_SET, binding = 3) uniform sampler2D alpenglowLightShaftBounds;
 
-// The blocks of the light-volume mesh that this frame sees, a VkDrawIndirectCommand first.
+// A VkDrawIndirectCommand, then the blocks of the light-volume mesh that are visible in this frame.
 const int kLightShaftBlock = 16;  // cells on a side; also in atmosphere/passes/light_shaft_frame.h
 #ifndef ALPENGLOW_LIGHT_SHAFT_BLOCKS_ACCESS
 #define ALPENGLOW_LIGHT_SHAFT_BLOCKS_ACCESS readonly
@@ -62,7 +62,7 @@ vec3 alpenglowOnShadowMap(vec3 position) {
               dot(alpenglowLightShaft.mapDepth.xyz, position) + alpenglowLightShaft.mapDepth.w);
 }
 
-// Depth of what the sun meets first in a texel; beyond everything where it meets nothing.
+// Depth of the first caster in a texel; 1e30 where there is none.
 float alpenglowFirstDepth(vec2 texel) {
   float size = alpenglowLightShaft.map.x;
   bool inside = min(texel.x, texel.y) >= 0.0 && max(texel.x, texel.y) < size;
@@ -70,8 +70,8 @@ float alpenglowFirstDepth(vec2 texel) {
   return inside && depth < 1.0 ? depth : 1e30;
 }
 
-// Metres along the sun's beam from a point to the ground, or at most as far as a beam is in the atmosphere. The
-// point's altitude comes from the camera's, without cancelling (physics/geometry.glsl).
+// Metres along the sun's beam from a point to the ground, or the longest beam in the atmosphere. The point's
+// altitude is computed from the camera's without cancellation (physics/geometry.glsl).
 float alpenglowBeamLength(vec3 p) {
   vec3 up = alpenglowLightShaft.upAltitude.xyz, beam = -alpenglowLightShaft.sunRange.xyz;
   float r0 = alpenglowLightShaft.map.z;
@@ -86,7 +86,7 @@ float alpenglowBeamLength(vec3 p) {
   return hits ? rho2 / max(sqrt(max(delta, 0.0)) - rMu, 1e-6) : alpenglowLightShaft.map.y;
 }
 
-// The point of a beam, at texels of the map, some metres below where depth is 0.
+// The point of the beam through `at` (texels of the map), `along` metres from where depth is 0.
 vec3 alpenglowOnBeam(vec2 at, float along) {
   return alpenglowLightShaft.cornerStep.xyz +
          at.x * alpenglowLightShaft.cornerStep.w * alpenglowLightShaft.rowStep.xyz +
@@ -94,19 +94,19 @@ vec3 alpenglowOnBeam(vec2 at, float along) {
          along * alpenglowLightShaft.sunRange.xyz;
 }
 
-// The texel of a vertex of the light-volume mesh: every so many, and the last.
+// The texel of a vertex of the light-volume mesh: one every map.w texels, and the last.
 ivec2 alpenglowMeshTexel(ivec2 vertex) {
   return min(vertex * int(alpenglowLightShaft.map.w), ivec2(int(alpenglowLightShaft.map.x) - 1));
 }
 
-// Cells of that surface along a side.
+// Cells of the mesh along a side.
 int alpenglowMeshCells() {
   int step_ = int(alpenglowLightShaft.map.w);
   return (int(alpenglowLightShaft.map.x) - 2 + step_) / step_;
 }
 
-// Such a vertex: a little behind what the sun meets at a texel's middle, so that what is lit hides it, or where
-// its beam ends if it meets nothing.
+// The position of a vertex: a little behind the caster at the texel's centre, so that lit surfaces hide the mesh,
+// or the end of the beam where there is no caster.
 vec3 alpenglowMeshVertex(ivec2 vertex) {
   ivec2 texel = alpenglowMeshTexel(vertex);
   float depth = texelFetch(alpenglowShadowMap, texel, 0).r;
@@ -116,8 +116,8 @@ vec3 alpenglowMeshVertex(ivec2 vertex) {
   return alpenglowOnBeam(middle, along + alpenglowLightShaft.aerialHeight.y);
 }
 
-// Whether a point lies behind that surface, of which each cell is two triangles, as light_volume_mesh.vert
-// draws it.
+// Whether a point lies behind the mesh, seen from the sun. A cell is two triangles, as light_volume_mesh.vert
+// draws them.
 bool alpenglowBehindLightVolumeMesh(vec3 position) {
   vec2 at = alpenglowOnShadowMap(position).xy - 0.5;
   vec2 cell = floor(at / alpenglowLightShaft.map.w);
@@ -146,8 +146,8 @@ bool alpenglowInShadow(vec3 position) {
   return at.z > first;
 }
 
-// A pixel's way from the middle of the picture: forward + offset is its ray, or (orthographic) the offset its
-// ray's origin.
+// Offset of a pixel from the middle of the picture: forward + offset is its ray, or (orthographic) the offset is
+// its ray's origin.
 vec3 alpenglowPixelOffset(vec2 fragCoord) {
   vec2 ndc = (fragCoord - vec2(alpenglowLightShaft.rightOffsetX.w, alpenglowLightShaft.downOffsetY.w)) *
                  alpenglowLightShaft.pixels.xy - 1.0;
@@ -159,8 +159,8 @@ vec3 alpenglowRayOrigin(vec2 fragCoord) {
   return alpenglowLightShaft.pixels.w > 0.5 ? alpenglowPixelOffset(fragCoord) : vec3(0.0);
 }
 
-// The share of the sun that the map says a point sees, over three texels either way: about as soft an edge as
-// the sun's disc gives a shadow of some kilometres.
+// The sunlit share of a point by the shadow map, filtered over 3 x 3 texels: about as soft an edge as the sun's
+// disc gives a shadow some kilometres away.
 float alpenglowSunShare(vec3 position) {
   vec3 at = alpenglowOnShadowMap(position);
   vec2 corner = floor(at.xy - 0.5);
@@ -176,8 +176,8 @@ float alpenglowSunShare(vec3 position) {
   return share;
 }
 
-// The share of the sun that the surface seen in a pixel gets, at `position`, before its own slope is asked.
-// Its point is lifted over the slope by texels of the map, or it would lie in its own shadow.
+// The sunlit share of the surface in a pixel, at `position`, without the cosine of its slope. The point is lifted
+// off the surface by texels of the map, or it would lie in its own shadow.
 float alpenglowSunlit(vec4 fragCoord, vec3 position, vec3 normal) {
   if (int(alpenglowLightShaft.pixels.z) == kShadowVolume)
     return texelFetch(alpenglowLightShaftSums, ivec2(fragCoord.xy), 0).x < -0.5 ? 0.0 : 1.0;

@@ -1,6 +1,6 @@
 // The tables of Solver::Moments: a part of alpenglow/atmosphere.glsl.
 
-#define ALPENGLOW_PATH_LIGHT  // single and multiple scattering of a ray apart
+#define ALPENGLOW_PATH_LIGHT  // single and multiple scattering of a ray are separate
 
 layout(set = ALPENGLOW_SET, binding = 1) uniform sampler2D alpenglowDepthTable;
 Spectrum readDepth(vec2 uv) { return textureLod(alpenglowDepthTable, uv, 0.0).rgb; }
@@ -24,15 +24,15 @@ layout(set = ALPENGLOW_SET, binding = 0, std140) uniform AlpenglowAtmosphere {
   MomentShape alpenglowShape;
 };
 
-// Mesa's software driver takes a uniform that ends a loop for a constant, and recompiles the shader, and keeps
-// it, each time the uniform is bound. What a texture's size is part of it leaves alone; the shift is always 0.
+// Mesa's software driver treats a uniform that bounds a loop as a constant: each time the uniform is bound, it
+// compiles and keeps another shader. It doesn't where a texture's size is part of the bound; the term is always 0.
 int alpenglowViewPanels() {
   return int(alpenglowShape.viewPanels) + (textureSize(alpenglowDepthTable, 0).x >> 24);
 }
 
 PathLight alpenglowPathLight(Ray ray, float inside) {
   return integrateInscattering(alpenglowMedium, alpenglowShape, ray, inside, alpenglowViewPanels(),
-                     true, ALPENGLOW_MULTIPLE);
+                               true, ALPENGLOW_MULTIPLE);
 }
 
 Spectrum alpenglowLightOfSegment(Ray ray, float inside, Spectrum transmittance) {

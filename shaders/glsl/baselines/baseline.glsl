@@ -7,14 +7,14 @@ struct BaselineSettings {
   Real unused0, unused1, unused2;
 };
 
-// Light scattered into a ray along a segment of it, and that stretch's optical depth.
+// Light scattered into a ray along a segment of it, and the optical depth of that segment.
 struct BaselineLight {
   Spectrum light;
   Spectrum depth;
 };
 
-// (1 - exp(-x)) / x, which keeps its digits where x is small: the share of its light that air of constant
-// density and optical depth x lets out.
+// (1 - exp(-x)) / x, precise for small x: the share of its own light that leaves a medium of constant density and
+// optical depth x.
 ALPENGLOW_FN Spectrum lightLetOut(Spectrum x) {
   Spectrum one = SPECTRUM(REAL(1.0));
   Spectrum least = SPECTRUM(REAL(0.02));

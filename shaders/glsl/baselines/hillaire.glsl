@@ -63,11 +63,11 @@ ALPENGLOW_FN Spectrum multipleScattering(IN(Medium) m, IN(TableShape) shape, Rea
     light += one.light;
     factor += one.factor;
   }
-  Spectrum most = SPECTRUM(REAL(0.999));  // 1 is air that absorbs nothing and lets nothing out
+  Spectrum most = SPECTRUM(REAL(0.999));  // 1: a medium that absorbs nothing and lets no light out
   return light / REAL(64.0) / (SPECTRUM(REAL(1.0)) - min(factor / REAL(64.0), most));
 }
 
-// --- The sky-view table: x = sine of half the azimuth from the sun, y in halves below and above the horizon, each
+// --- The sky-view LUT: x = sine of half the azimuth from the sun, y in halves below and above the horizon, each
 // by the square root of the angle from it (section 5.3).
 
 ALPENGLOW_FN Real2 skyViewCoordinate(Real horizon, Real nadirAngle, Real sineHalf, bool hitsGround,
@@ -108,7 +108,7 @@ ALPENGLOW_FN Spectrum multipleFromTable(IN(Medium) m, Real h, Real muS) {
 // Equation 11: L = integral of T sigma_s (T_sun S p + Psi_ms) over the first d metres of a ray. The steps grow
 // with the distance, as d (i / N)^2; over each the source is constant and the transmittance is integrated.
 ALPENGLOW_FN BaselineLight hillaireLight(IN(Medium) m, IN(TableShape) shape, IN(Ray) ray, Real d,
-                                      Real stepCount) {
+                                         Real stepCount) {
   Real phaseR = rayleighPhase(ray.nu);
   Real phaseM = miePhase(m.mieAsymmetry, ray.nu);
   Real from = REAL(0.0);

@@ -1,6 +1,6 @@
-// Hoffman & Preetham 2002, "Rendering Outdoor Light Scattering in Real Time": air of constant density, one
-// event, in closed form. It knows neither altitude nor space: coefficients are those of the ground, wherever
-// the camera is.
+// Hoffman & Preetham 2002, "Rendering Outdoor Light Scattering in Real Time": a medium of constant
+// density, one event, in closed form. It has neither altitude nor space: the coefficients are those at the ground,
+// wherever the camera is.
 
 // Relative optical length of the atmosphere at a zenith angle: m = 1 / (cos t + 0.15 (93.885 - t)^-1.253), t in
 // degrees, at most 90. Below the horizon the model is undefined; it answers as at the horizon.
@@ -32,7 +32,7 @@ ALPENGLOW_FN Real henyeyGreenstein(Real g, Real nu) {
 // for each species, which the paper has for the sun's light. E_sun is dimmed by all of the atmosphere towards
 // the sun.
 ALPENGLOW_FN BaselineLight hoffmanPreethamLight(IN(Medium) m, Real muS, Real nu, Real lengthR,
-                                             Real lengthM) {
+                                                Real lengthM) {
   Spectrum scattered = m.rayleighScattering * (lengthR * rayleighPhase(nu)) +
                        m.mieScattering * (lengthM * henyeyGreenstein(m.mieAsymmetry, nu));
   BaselineLight result;

@@ -5,7 +5,7 @@
 // species: t(P, sun) from the table, t(P, eye) (the out-scattering equation, section 16.2.2) summed up at the
 // same points, F the phase functions (section 16.2.1).
 ALPENGLOW_FN BaselineLight oneilLight(IN(Medium) m, IN(TableShape) shape, IN(Ray) ray, Real d,
-                                   Real stepCount) {
+                                      Real stepCount) {
   Real dt = d / stepCount;
   Spectrum rayleigh = SPECTRUM(REAL(0.0));
   Spectrum mie = SPECTRUM(REAL(0.0));

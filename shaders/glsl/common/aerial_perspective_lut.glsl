@@ -1,6 +1,6 @@
 // Light of the atmosphere between a camera and any point that it sees, from the aerial-perspective LUT of this
-// frame: a few fetches where alpenglowRadianceToPoint integrates. The library's own passes read it; its set is
-// not public. Include it after alpenglow/atmosphere.glsl (tables of Solver::Moments). The volume's images are
+// frame: a few fetches where alpenglowRadianceToPoint integrates. Only the library's own passes read it. Include
+// it after alpenglow/atmosphere.glsl (tables of Solver::Moments). The LUT's images are
 // combined image samplers at set ALPENGLOW_AERIAL_PERSPECTIVE_SET (1 unless defined before), bindings
 // ALPENGLOW_AERIAL_PERSPECTIVE_BINDING (0) and the next two.
 #ifndef ALPENGLOW_AERIAL_PERSPECTIVE_LUT
@@ -27,17 +27,17 @@ struct AerialLight {
   Spectrum depth;     // optical depth: what lies behind is dimmed by exp(-depth)
 };
 
-// A view ray in the volume: made once for a pixel, asked at as many distances as needed.
+// A view ray in the LUT: made once for a pixel, then looked up at any number of distances.
 struct AerialRay {
   vec2 direction;  // texture coordinate
   AerialSegment segment;
-  float start;     // metres from the camera to the atmosphere
+  float start;  // metres from the camera to the atmosphere
   float rayleigh, mie;  // phase functions
   bool any_;
 };
 
-// `view`, the camera's vertical `up` and `sunAzimuth` are those of AerialPerspectiveLut::view(); `direction` is
-// the unit vector that the ray was made from.
+// `view` and `sunAzimuth` are those of passes::aerialPerspectiveLookup, `up` is the camera's vertical; `direction`
+// is the unit vector that the ray was made from.
 AerialRay alpenglowAerialRay(AerialView view, vec3 up, vec3 sunAzimuth, Ray ray, vec3 direction) {
   AerialRay aerial;
   vec2 angles = skyViewAngles(up, sunAzimuth, direction);
@@ -75,14 +75,14 @@ AerialLight alpenglowAerialLight(AerialRay ray, float distance_) {
   return light;
 }
 
-// Its single scattering alone. What a segment from a to b sends to the camera is the difference of two such:
-// for the sunlit ones between the shadows of a ray.
+// The single scattering alone. The light of a segment from a to b is the difference of its values at b and a:
+// for the sunlit segments between the shadows on a ray.
 Spectrum alpenglowAerialSingle(AerialRay ray, float distance_) {
   float inside = alpenglowAerialInside(ray, distance_);
   vec3 at = alpenglowAerialCoordinate(ray, inside);
   vec4 first = textureLod(alpenglowAerialFirst, at, 0.0);
   return aerialSingle(first, textureLod(alpenglowAerialSecond, at, 0.0), aerialMeanDepth(first, inside),
-                   ray.rayleigh, ray.mie);
+                      ray.rayleigh, ray.mie);
 }
 
 #endif  // ALPENGLOW_AERIAL_PERSPECTIVE_LUT

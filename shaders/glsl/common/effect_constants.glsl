@@ -1,5 +1,5 @@
-// The effects of physics/effects.glsl as specialization constants; to be included before any physics. Numbered
-// as engine::specBool has them in atmosphere/tables/effect_constants.h.
+// The effects of physics/effects.glsl as specialization constants; include this before any physics. Their numbers
+// are those of atmosphere/tables/effect_constants.h.
 #ifndef ALPENGLOW_EFFECT_CONSTANTS
 #define ALPENGLOW_EFFECT_CONSTANTS
 

@@ -1,12 +1,12 @@
-// What shadows keep from a ray: docs/light-shafts.md. PlanRequest alpenglow/light_shafts.glsl, common/ray_light.glsl
-// and common/pixel_ray.glsl.
+// Light that shadows remove from a ray: docs/light-shafts.md. Needs alpenglow/light_shafts.glsl, common/ray_light.glsl
+// and common/observer.glsl.
 
 layout(constant_id = 8) const int kLightShaftMethod = 0;
 layout(constant_id = 9) const int kLightShaftSteps = 32;
-// What multiple scattering loses where single scattering loses all: docs/light-shafts.md.
+// Share of multiple scattering that is lost where all single scattering is lost: docs/light-shafts.md.
 layout(constant_id = 10) const float kMultipleLoss = 0.7;
 
-// Of single scattering alone, from where the ray passes the light-volume mesh.
+// Loss of single scattering, from the sum over the crossings of the ray with the light-volume mesh.
 Spectrum lightVolumeLoss(vec2 fragCoord, Spectrum whole) {
   vec4 sums = texelFetch(alpenglowLightShaftSums, ivec2(fragCoord), 0);
   float start = alpenglowLightShaftBlocks.start;
@@ -16,7 +16,7 @@ Spectrum lightVolumeLoss(vec2 fragCoord, Spectrum whole) {
   return whole - clamp(lit, SPECTRUM(0.0), whole);
 }
 
-// Of single scattering, from samples of the map where the ray crosses it.
+// Loss of single scattering, from samples of the segment that lies within the shadow map.
 Spectrum rayMarchLoss(vec2 fragCoord, AerialRay aerial, vec3 view, float end) {
   vec3 origin = alpenglowRayOrigin(fragCoord);
   vec3 from = alpenglowOnShadowMap(origin);
@@ -38,8 +38,8 @@ Spectrum rayMarchLoss(vec2 fragCoord, AerialRay aerial, vec3 view, float end) {
   return max(loss, SPECTRUM(0.0));
 }
 
-// Equations 17 and 18 of the paper, of all orders: a ray that ends on a surface loses its last metres, one to
-// the sky its first.
+// Equations 17 and 18 of the paper, for all orders: a ray that ends on a surface loses the light of its last
+// metres, a ray to the sky that of its first.
 Spectrum shadowVolumeLoss(vec2 fragCoord, AerialRay aerial, Spectrum whole, float end, float start, bool ground) {
   vec2 sums = texelFetch(alpenglowLightShaftSums, ivec2(fragCoord), 0).xy;
   vec2 bounds = texelFetch(alpenglowLightShaftBounds, ivec2(fragCoord), 0).xy;  // (-zmin, zmax)
@@ -52,14 +52,14 @@ Spectrum shadowVolumeLoss(vec2 fragCoord, AerialRay aerial, Spectrum whole, floa
   return ground ? max(whole - part, SPECTRUM(0.0)) : min(part, whole);
 }
 
-// Of the first `end` metres of a ray, which send single and multiple scattering; `ground`: they end on a
-// surface.
+// Loss of `light`, the single and multiple scattering of the first `end` metres of a ray; `ground`: the ray ends
+// on a surface.
 Spectrum lightShaftLoss(vec2 fragCoord, AerialRay aerial, vec3 view, float start, float end, AerialLight light,
-                   bool ground) {
+                        bool ground) {
   if (kLightShaftMethod == kShadowVolume)
     return shadowVolumeLoss(fragCoord, aerial, light.single + light.multiple, end, start, ground);
   Spectrum single = kLightShaftMethod == kLightVolume ? lightVolumeLoss(fragCoord, light.single)
-                                                : rayMarchLoss(fragCoord, aerial, view, end);
+                                                      : rayMarchLoss(fragCoord, aerial, view, end);
   Spectrum share = min(single / max(light.single, SPECTRUM(1e-30)), SPECTRUM(1.0));
   return single + kMultipleLoss * share * light.multiple;
 }

@@ -1,4 +1,4 @@
-// The ray through a pixel of the frame that alpenglow/light_shafts.glsl tells of.
+// The ray through a pixel of the frame that alpenglow/light_shafts.glsl describes.
 
 #include "common/observer.glsl"
 

@@ -1,6 +1,6 @@
 // Light of the atmosphere up to any point of a pixel's ray: from this frame's aerial-perspective LUT
 // (ALPENGLOW_FROM_AERIAL_PERSPECTIVE_LUT), or by integration through the tables. Distances are metres from the
-// observer, cut at the end of the ray.
+// observer, limited to the end of the ray.
 
 #ifdef ALPENGLOW_FROM_AERIAL_PERSPECTIVE_LUT
 #include "common/aerial_perspective_lut.glsl"
@@ -19,7 +19,7 @@ AerialLight alpenglowAerialLight(AerialRay aerial, float distance_) {
   AerialLight light;
 #ifndef ALPENGLOW_PATH_LIGHT
   Spectrum transmittance;
-  light.single = SPECTRUM(0.0);  // all orders come in one
+  light.single = SPECTRUM(0.0);  // single and multiple scattering are not separate
   light.multiple = alpenglowRadianceToPoint(aerial.ray, distance_, transmittance);
   light.depth = -log(max(transmittance, SPECTRUM(1e-30)));
 #else
@@ -41,7 +41,7 @@ AerialLight alpenglowAerialLight(AerialRay aerial, float distance_) {
 Spectrum alpenglowAerialSingle(AerialRay aerial, float distance_) {
   float inside = alpenglowInside(aerial.ray, distance_);
   PathLight light = integrateInscattering(alpenglowMedium, alpenglowShape, aerial.ray, inside,
-                                alpenglowViewPanels(), true, false);
+                                          alpenglowViewPanels(), true, false);
   return inside > 0.0 ? radianceOfPath(alpenglowMedium, light, aerial.ray.nu) : SPECTRUM(0.0);
 }
 #endif

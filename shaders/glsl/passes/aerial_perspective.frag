@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Aerial perspective over a host's scene: equation 16 for what the depth image shows, from the ground to outer
-// space. Blended: destination times `seen` plus `scattered`.
+// space. Blended: destination times `transmittance` plus `scattered`.
 
 #define ALPENGLOW_AERIAL_PERSPECTIVE_SET 2
 #define ALPENGLOW_LIGHT_SHAFT_SET 3
@@ -26,7 +26,7 @@ layout(push_constant) uniform AerialPerspectiveConstants {
   vec4 downExtinction;   // its origin; w: AerialView::extinction_
   vec4 sunHeight;        // towards the sun; w: AerialView::height
   vec4 irradiance;       // solar irradiance times radianceScale
-  vec4 skyView;            // SkyViewParams; w: AerialView::startHeight
+  vec4 skyView;          // SkyViewParams; w: AerialView::startHeight
   vec4 sunAzimuth;       // horizontal unit vector towards the sun
 };
 
@@ -51,7 +51,8 @@ void main() {
   }
   Ray ray = alpenglowRay(up, altitude, view, sunHeight.xyz);
 #ifdef ALPENGLOW_FROM_AERIAL_PERSPECTIVE_LUT
-  AerialView aerialView_ = AerialView(SkyViewParams(skyView.x, skyView.y, skyView.z), downExtinction.w, skyView.w, sunHeight.w);
+  AerialView aerialView_ = AerialView(SkyViewParams(skyView.x, skyView.y, skyView.z), downExtinction.w, skyView.w,
+                                      sunHeight.w);
   AerialRay aerial = alpenglowAerialRay(aerialView_, up, sunAzimuth.xyz, ray, view);
 #else
   AerialRay aerial = AerialRay(ray);

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The aerial-perspective LUT of one frame (physics/aerial_perspective_lut.glsl). An invocation walks along one
-// ray and stores what it has gathered at each texel's distance.
+// The aerial-perspective LUT of one frame (physics/aerial_perspective_lut.glsl). An invocation integrates along
+// one ray and stores the sum at each texel's distance.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
@@ -39,15 +39,15 @@ void main() {
   SourceRay source = makeSourceRay(alpenglowShape, ray.nu);
   InscatteringState state = startInscattering(alpenglowMedium, ray);
   int texel = 0;
-  // A panel to each texel, and one more for each cut.
+  // A panel for each texel, and one more for each cut.
   for (int i = 0; i < kAerialDistances + 3; ++i) {
     if (texel == kAerialDistances) break;
     float target = aerialTexelDistance(segment, texel);
     float next = min(cutAfter(cuts, state.t, target), target);
     float d = next - state.t;
     state = integratePanel(alpenglowMedium, alpenglowShape, ray, source, state,
-                     vec2(state.t + firstOfPanel() * d, d), vec2(next - firstOfPanel() * d, d), next,
-                     true, ALPENGLOW_MULTIPLE);
+                           vec2(state.t + firstOfPanel() * d, d), vec2(next - firstOfPanel() * d, d), next,
+                           true, ALPENGLOW_MULTIPLE);
     if (next == target) {
       storeTexel(ivec3(column, texel), state);
       ++texel;

@@ -1,9 +1,9 @@
-// Placing a caster: placeCaster() in alpenglow/light_shafts.h.
+// Placing a caster: placeCaster() in alpenglow/view.h.
 
 layout(location = 0) in vec3 localPosition;
 
 layout(push_constant) uniform Place {
-  vec4 rows[3];  // local position to metres from the camera, or in the shadow map to texels and depth
+  vec4 rows[3];  // local position to metres from the camera, or to clip space of the shadow map
 };
 
 vec3 placed() {

@@ -1,6 +1,6 @@
-// Which triangles see the sun. Both triangles at an edge are asked from either side, and must get the same
-// answer to the last bit, or a wall would be missing or stand twice: so each is computed from the same corner,
-// whichever comes first.
+// Which triangles face the sun. Both triangles at an edge are tested from either side, and the results must agree
+// to the last bit, or a wall would be missing or drawn twice: so each is computed from the same corner,
+// whichever order its corners come in.
 
 bool before(vec3 a, vec3 b) {
   return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Which blocks of the light-volume mesh a frame may see: an indirect draw of a strip for each.
-// Also whether the camera itself is in shadow.
+// Finds the blocks of the light-volume mesh that may be visible, for an indirect draw with an instance for each.
+// Also finds whether the camera itself is in shadow.
 
 layout(local_size_x = 64) in;
 
@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 #define ALPENGLOW_LIGHT_SHAFT_BLOCKS_ACCESS
 #include "alpenglow/light_shafts.glsl"
 
-// The least and the greatest way along the beam to the vertices of a block; nothing if the sun meets nothing.
+// The least and the greatest depth of the vertices of a block; false if it has no caster.
 bool blockReach(ivec2 first, out float least, out float greatest) {
   least = 1e30;
   greatest = 0.0;

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// What the light-volume mesh does to the rays through it: single scattering of all that lies
-// before it is lit if the ray enters shadow here, and unlit else (docs/light-shafts.md).
+// A crossing of a view ray with the light-volume mesh: adds the single scattering of all that lies before it if
+// the ray enters shadow here, and subtracts it otherwise (docs/light-shafts.md).
 
 #define ALPENGLOW_AERIAL_PERSPECTIVE_SET 2
 #include "common/effect_constants.glsl"
@@ -13,14 +13,14 @@
 
 layout(location = 0) in vec3 position;
 
-layout(location = 0) out vec4 sums;  // light; shadows entered less those left
+layout(location = 0) out vec4 sums;  // light; shadows entered minus shadows left
 
 void main() {
   vec3 view;
   Ray ray = pixelRay(gl_FragCoord.xy, view);
   float t = kOrthographic ? dot(position, view) : length(position);
-  // The ground's sphere is in no depth image; depth is clamped, so that a parallel camera sees what lies behind
-  // the plane where its rays begin.
+  // The ground's sphere is in no depth image. Depth is clamped, so that an orthographic camera also draws what
+  // lies behind the plane where its rays begin.
   bool reached = (!ray.hitsGround || t < ray.start + ray.extent) && !(kOrthographic && t < 0.0);
   // The strips show their fronts to the light.
   float sign_ = reached ? (gl_FrontFacing ? 1.0 : -1.0) : 0.0;

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The light-volume mesh, after Billeter, Sintorn & Assarsson 2010, "Real-Time Volumetric Shadows using
-// Polygonal Light Volumes" (HPG): the light-volume mesh, spanned along the sun's beam by the shadow map. Where casters
-// are lit it lies on them; between, it is the walls of their shadows. An instance is a block of cells that
+// Polygonal Light Volumes" (HPG). The shadow map spans it along the sun's beam: where casters are lit it lies on
+// them; between them it forms the walls of their shadows. An instance is a block of cells that
 // light_volume_cull.comp has kept: for each row a strip of triangles, its first and last vertex twice.
 
 #include "alpenglow/light_shafts.glsl"

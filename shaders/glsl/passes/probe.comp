@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Point queries. Where a ray begins and ends has been decided in double on the CPU; what is seen
-// along it comes from the functions that the sky is drawn with.
+// Point queries. The CPU has computed in double where a ray begins and ends; its light comes from the functions
+// that the sky is drawn with.
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kMiePacked = false;
@@ -12,16 +12,16 @@ layout(constant_id = 0) const bool kMiePacked = false;
 
 // Mirrored by PreparedQuery in atmosphere/passes/probe_pass.h.
 struct Query {
-  float h, mu, muS, nu;      // where the ray begins
-  float d;                   // metres along it
-  float extent;              // metres to the ground or the top
-  float muSGround;           // of the sun where it ends, if on the ground
+  float h, mu, muS, nu;  // where the ray begins
+  float d;               // metres along it
+  float extent;          // metres to the ground or the top
+  float muSGround;       // of the sun where it ends, if on the ground
   uint flags;
 };
 const uint kIrradiance = 1u;  // else a ray
 const uint kHitsGround = 2u;  // the whole ray does
 const uint kEndsOnGround = 4u;
-const uint kEmpty = 8u;       // no atmosphere along the segment
+const uint kEmpty = 8u;  // no atmosphere along the segment
 
 struct Answer {
   vec4 transmittanceOrDirect;

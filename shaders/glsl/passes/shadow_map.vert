@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Casters as the sun sees them: a parallel projection.
+// Casters in the shadow map: a parallel projection along the sun's beam.
 
 #include "passes/caster_placement.glsl"
 

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Shadow volumes of Bruneton & Neyret 2008, section 5: a front face takes away 1 and its distance, a back face
+// Shadow volumes of Bruneton & Neyret 2008, section 5: a front face subtracts 1 and its distance, a back face
 // adds them. Distances are along the ray from the camera, or from where it enters the atmosphere.
 
 #include "alpenglow/atmosphere.glsl"
@@ -18,7 +18,7 @@ void main() {
   Ray ray = pixelRay(gl_FragCoord.xy, view);
   float t = kOrthographic ? dot(position, view) : length(position);
   float z = max(t - ray.start, 0.0);
-  // A face on the near plane is a front, though its corners may run either way round.
+  // A face on the near plane is a front face, in either winding.
   float n = gl_FrontFacing || onNearPlane > 0.5 ? -1.0 : 1.0;
   sums = n * vec2(1.0, z);
   bounds = vec2(-z, z);

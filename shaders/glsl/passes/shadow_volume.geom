@@ -1,9 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Shadow volumes of Bruneton & Neyret 2008, section 5: each triangle that faces away from the sun begins one,
-// which runs along the beam out of the atmosphere. Triangles share their walls; a wall stands where exactly one
-// of the two at an edge faces away. ZP+: what lies between the near plane and the sun is projected onto that
-// plane, so that a camera in shadow counts right.
+// which runs along the beam out of the atmosphere. Triangles share their walls: a wall is drawn where exactly one
+// of the two triangles at an edge faces away. ZP+: what lies between the near plane and the sun is projected onto
+// that plane, so that the count is right for a camera in shadow.
 
 layout(triangles_adjacency) in;
 layout(triangle_strip, max_vertices = 23) out;
@@ -36,14 +36,14 @@ void emitOnNearPlane(vec3 p) {
   position = p;
   onNearPlane = 1.0;
   gl_Position = alpenglowLightShaft.clipFromCamera * vec4(p, 1.0);
-  // To the last bit: a corner is kilometres away, and the plane may be nearer than that rounds to.
+  // Exactly: the near plane may be closer than the rounding error of a corner that is kilometres away.
   gl_Position.w = alpenglowLightShaft.pixels.w > 0.5 ? 1.0 : alpenglowLightShaft.forwardNear.w;
   gl_Position.z = kReversed ? gl_Position.w : 0.0;
   gl_ClipDistance[0] = 0.0;
   EmitVertex();
 }
 
-// The part of a polygon where a x + b >= 0, x beside each corner.
+// Clips a polygon to where a w + b >= 0, w given with each corner.
 void clipPolygon(inout vec4 polygon[5], inout int count, float a, float b) {
   vec4 kept[5];
   int n = 0;
@@ -57,11 +57,11 @@ void clipPolygon(inout vec4 polygon[5], inout int count, float a, float b) {
   count = n;
 }
 
-// The volume's section with the near plane: what of the triangle the beam carries there.
+// The section of the volume with the near plane: the triangle projected along the beam.
 void emitSection(vec3 a, vec3 b, vec3 c, float length_) {
   vec3 sun = alpenglowLightShaft.sunRange.xyz, forward = alpenglowLightShaft.forwardNear.xyz;
   float slope = dot(forward, sun);
-  // A sun parallel to the plane: as if it were not quite.
+  // A beam parallel to the plane is tilted slightly.
   if (abs(slope) < 1e-5) {
     sun += (slope < 0.0 ? -1e-5 : 1e-5) * forward;
     slope = slope < 0.0 ? -1e-5 : 1e-5;
@@ -99,7 +99,7 @@ void main() {
   if (!(facing(a, b, c) < 0.0)) return;
   float length_ = alpenglowLightShaft.map.y;
   vec3 along = -length_ * alpenglowLightShaft.sunRange.xyz;
-  // Outside is towards the sun here, where the triangle's own back is.
+  // The volume's outside is towards the sun here, on the triangle's back.
   emitAt(a);
   emitAt(c);
   emitAt(b);

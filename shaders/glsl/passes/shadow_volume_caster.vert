@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Casters about the camera, for the geometry shader.
+// Casters in metres from the camera, for the geometry shader.
 
 #include "passes/caster_placement.glsl"
 

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // Sky, sun disc, ground sphere and the aerial perspective in front of it: equation 16 without shadows, from the
-// ground to outer space. What the camera can't see is removed by the constants below.
+// ground to outer space. The constants below remove what no pixel of the draw shows.
 
 layout(constant_id = 0) const bool kMiePacked = false;
 layout(constant_id = 1) const bool kFisheye = false;
@@ -14,8 +14,8 @@ layout(constant_id = 12) const float kSkyViewRows = 160.0;
 #include "common/effect_constants.glsl"
 
 #ifdef ALPENGLOW_SKY_VIEW_LUT
-// Light that arrives at this frame's camera, or of the standard solver S at its altitude, for cameras
-// inside the atmosphere: sky_view_lut.comp, sky_view_lut_standard.comp.
+// Light that arrives at this frame's camera, or (standard solver, cameras inside the atmosphere) S at its
+// altitude: sky_view_lut.comp, sky_view_lut_standard.comp.
 #include "physics/types.glsl"
 #define ALPENGLOW_SKY_VIEW_READS
 layout(set = 1, binding = 1) uniform sampler2D skyViewLut;
@@ -42,14 +42,14 @@ layout(set = 1, binding = 0) uniform sampler2D albedoMap;
 
 // Directions in the planet's frame; mirrored by SkyConstants in atmosphere/passes/sky_pass.h.
 layout(push_constant) uniform SkyConstants {
-  vec4 upAltitude;        // the camera's vertical; altitude in metres
-  vec4 forwardPixel;      // angle of a pixel at the centre, radians
-  vec4 rightHalfAngle;    // scaled by tan(fov / 2) and aspect; fisheye: unit, half the circle's angle
-  vec4 downMapTexel;      // scaled by tan(fov / 2), down the image; metres of a map texel
-  vec4 sunDiscChord;      // towards the sun; chord to where the drawn disc's edge is at 1/2
-  vec4 irradianceDisc;    // solar irradiance times radianceScale; the disc's radiance per unit of it
-  vec4 circleSkyView;       // xy: ndc to units of the fisheye's circle; zw: SkyViewParams
-  vec4 sunAzimuth;        // horizontal unit vector towards the sun; w: SkyViewParams
+  vec4 upAltitude;      // the camera's vertical; altitude in metres
+  vec4 forwardPixel;    // w: angle of a pixel at the centre, radians
+  vec4 rightHalfAngle;  // scaled by tan(fov / 2) and aspect; fisheye: unit, half the circle's angle
+  vec4 downMapTexel;    // scaled by tan(fov / 2), down the image; metres of a map texel
+  vec4 sunDiscChord;    // towards the sun; chord to where the drawn disc's edge is at 1/2
+  vec4 irradianceDisc;  // solar irradiance times radianceScale; the disc's radiance per unit of it
+  vec4 circleSkyView;   // xy: ndc to units of the fisheye's circle; zw: SkyViewParams
+  vec4 sunAzimuth;      // horizontal unit vector towards the sun; w: SkyViewParams
 };
 
 layout(location = 0) in vec2 ndc;
@@ -60,7 +60,7 @@ vec3 viewDirection(out bool visible, inout vec3 up, inout float altitude) {
     vec2 p = ndc * circleSkyView.xy;
     float radius = length(p);
     float theta = radius * rightHalfAngle.w;
-    visible = radius <= 1.00001;  // a pixel centre right on the circle is in it, whatever rounds
+    visible = radius <= 1.00001;  // a pixel centre on the circle is inside, despite rounding
     vec2 across = p * (sin(theta) / max(radius, 1e-9));
     return normalize(forwardPixel.xyz * cos(theta) + rightHalfAngle.xyz * across.x +
                      downMapTexel.xyz * across.y);
@@ -90,7 +90,7 @@ Spectrum groundAlbedo(Ray ray, vec3 up, float altitude, vec3 view, float muGroun
 #endif
 }
 
-// The ground's own light, dimmed on its way to the camera: T R[L], equations 10 and 14. `sunlit` is 0 in the
+// The ground's own light times transmittance: T R[L], equations 10 and 14. `sunlit` is 0 in the
 // shadow of a caster.
 Spectrum groundTerm(Ray ray, vec3 up, float altitude, vec3 view, float sunlit) {
   float d = ray.hitsGround ? ray.extent : 0.0;
@@ -110,7 +110,7 @@ Spectrum groundTerm(Ray ray, vec3 up, float altitude, vec3 view, float sunlit) {
 }
 
 // The sun's disc: T times irradiance over its solid angle, its edge one pixel wide. The angle comes
-// from the chord between the directions: their dot product has no digits left at 0.27 degrees.
+// from the chord between the directions: their dot product loses all digits at 0.27 degrees.
 Spectrum discTerm(Ray ray, vec3 view) {
   float chord = length(view - sunDiscChord.xyz);
   float coverage = clamp((sunDiscChord.w - chord) / forwardPixel.w + 0.5, 0.0, 1.0);
@@ -121,7 +121,7 @@ Spectrum discTerm(Ray ray, vec3 view) {
 Spectrum skyViewTerm(Ray ray, vec3 view) {
 #ifdef ALPENGLOW_SOLVER_STANDARD
   return scatteringOfRayInSkyView(alpenglowMedium, alpenglowShape, ray.h, ray.mu, ray.nu,
-                                ray.hitsGround);
+                                  ray.hitsGround);
 #elif defined(ALPENGLOW_SOLVER_HILLAIRE)
   vec2 angles = skyViewAngles(upAltitude.xyz, sunAzimuth.xyz, view);
   vec2 at = skyViewCoordinate(circleSkyView.z, angles.x, angles.y, ray.hitsGround, kSkyViewColumns, kSkyViewRows);

@@ -23,8 +23,8 @@ layout(push_constant) uniform Camera {
 void main() {
   ivec2 texel = ivec2(gl_GlobalInvocationID.xy);  // the image is whole groups
   SkyViewParams view = SkyViewParams(horizon, span, bend);
-  Ray ray = gridRay(alpenglowMedium, skyViewGrid(view, kSkyViewColumns, kSkyViewRows), view, altitude, muS, float(texel.x),
-                    float(texel.y));
+  Ray ray = gridRay(alpenglowMedium, skyViewGrid(view, kSkyViewColumns, kSkyViewRows), view, altitude, muS,
+                    float(texel.x), float(texel.y));
   PathLight light = alpenglowPathLight(ray, ray.extent);
   Spectrum logarithm, mieShare;
   Spectrum smooth_ = light.multiple;

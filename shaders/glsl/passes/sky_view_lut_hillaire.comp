@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Hillaire's sky-view table of one frame: light that arrives at a camera inside the atmosphere, phase functions
-// and all.
+// Hillaire's sky-view LUT of one frame: light that arrives at a camera inside the atmosphere, phase functions
+// included.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 

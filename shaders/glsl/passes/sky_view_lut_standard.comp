@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Of the standard solver: the slice of S that one frame's camera looks into: its r and mu_s are the same for
-// all pixels, so they are interpolated here once, for each mu and nu of the table.
+// The standard solver's sky-view LUT: the slice of S at the camera. r and mu_s are the same for all pixels, so
+// they are interpolated here once, for each mu and nu of the table.
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(constant_id = 0) const bool kMiePacked = false;

@@ -9,9 +9,9 @@ const int kAerialDistances = 56;
 // What the mappings need, the same for all rays of a camera: aerialView.
 struct AerialView {
   SkyViewParams skyView;
-  Real extinction_;  // where rays begin, 1/m, of the channel that loses most
-  Real startHeight;  // in which the atmosphere thins out by e there, m
-  Real height;       // the least such
+  Real extinction_;  // where rays begin, 1/m, the greatest of the channels
+  Real startHeight;  // scale height of the atmosphere there, m
+  Real height;       // the least scale height, m
 };
 
 ALPENGLOW_FN AerialView aerialView(IN(Medium) m, IN(SkyViewParams) skyView, Real altitude) {
@@ -24,7 +24,7 @@ ALPENGLOW_FN AerialView aerialView(IN(Medium) m, IN(SkyViewParams) skyView, Real
   return view;
 }
 
-// From inside the horizon's sky side needs most rows, from space the ground.
+// Inside the atmosphere the sky next to the horizon needs most rows; in space the ground does.
 ALPENGLOW_FN DirectionGrid aerialGrid(IN(SkyViewParams) view) {
   DirectionGrid grid;
   grid.groundRows = viewFromSpace(view) ? REAL(57.0) : REAL(32.0);
@@ -34,10 +34,10 @@ ALPENGLOW_FN DirectionGrid aerialGrid(IN(SkyViewParams) view) {
   return grid;
 }
 
-// How distances along a ray are spread over w in [0, 1]: dw/dt is the sum of 1 / (near + t), for the light that
-// is lost on the way and for rays that leave the atmosphere, and of 1 / (far + extent - t) for rays that sink
-// to the ground, or else 1 / sqrt(far^2 + (t - lowest)^2), where `far` is about as far from its lowest point as
-// a ray stays in the thick of the atmosphere.
+// Mapping of distances along a ray to w in [0, 1]: dw/dt is the sum of 1 / (near + t), for extinction on the way
+// and for rays that leave the atmosphere, and of 1 / (far + extent - t) for rays that hit the ground, or else
+// 1 / sqrt(far^2 + (t - lowest)^2), where `far` is about the distance from its lowest point within which a ray
+// stays in the dense part of the atmosphere.
 struct AerialSegment {
   Real extent;
   Real near_;
@@ -78,7 +78,7 @@ ALPENGLOW_FN Real aerialU(IN(AerialSegment) a, Real t) {
                REAL(1.0));
 }
 
-// The inverse: a linear equation for rays that hit the ground, for others a quadratic one for the second
+// The inverse: a linear equation for rays that hit the ground, for others a quadratic equation for the second
 // term's exponential.
 ALPENGLOW_FN Real aerialDistance(IN(AerialSegment) a, Real w) {
   Real q = exp(w * a.range);
@@ -93,8 +93,8 @@ ALPENGLOW_FN Real aerialDistance(IN(AerialSegment) a, Real w) {
   return w < REAL(1.0) ? clamp(t, REAL(0.0), a.extent) : a.extent;
 }
 
-// Distance of texel i. The first stands for the ray's beginning: means of next to nothing. Never 0, whatever
-// the shortest rays round to.
+// Distance of texel i. The first texel stands for the ray's beginning and holds means over a tiny distance. Never
+// 0, however the shortest rays are rounded.
 ALPENGLOW_FN Real aerialTexelDistance(IN(AerialSegment) a, int i) {
   Real w = max(texelToU(Real(i), Real(kAerialDistances)), REAL(0.01) / Real(kAerialDistances));
   return max(aerialDistance(a, w), REAL(1e-3) * w * a.extent);
@@ -105,15 +105,15 @@ ALPENGLOW_FN Real aerialCoordinate(IN(AerialSegment) a, Real t) {
   return insetCoordinate(aerialU(a, t), Real(kAerialDistances));
 }
 
-// A texel keeps ratios to the optical depth, which hardly change from texel to texel and have a limit at
-// distance 0: its mean over the channels, per metre, and as shares of it the other two channels' and light.
-// What may fall by orders of magnitude from texel to texel, across the terminator, is a logarithm. Single
-// scattering is the sum of both kinds without phase functions, and the aerosols' part of it; in the planet's
-// shadow it is nothing, so its logarithm has a floor far below daylight, which is taken off again.
+// A texel holds ratios to the optical depth, which hardly change from texel to texel and have a limit at
+// distance 0: the mean depth over the channels, per metre, and relative to it the depth of two channels and light.
+// Values that may fall by orders of magnitude from texel to texel, across the terminator, are logarithms. Single
+// scattering is the sum of Rayleigh and Mie without phase functions, and the Mie share of it. In the planet's
+// shadow it is 0, so its logarithm has a floor far below daylight, which is subtracted after the lookup.
 ALPENGLOW_FN Real aerialFloor() { return REAL(1e-4); }
 
 ALPENGLOW_FN void encodeAerialPerspective(Spectrum rayleigh, Spectrum mie, Spectrum multiple, Spectrum depth, Real t,
-                            OUT(Real4) first, OUT(Real4) second, OUT(Real4) third) {
+                                          OUT(Real4) first, OUT(Real4) second, OUT(Real4) third) {
   Real mean = max((depth[0] + depth[1] + depth[2]) / REAL(3.0), kMinRadiance * t);
   Spectrum floored = (rayleigh + mie) / mean + aerialFloor();
   Spectrum s = log(floored);
@@ -124,11 +124,11 @@ ALPENGLOW_FN void encodeAerialPerspective(Spectrum rayleigh, Spectrum mie, Spect
   third = Real4(mu[0], mu[1], mu[2], depth[2] / mean);
 }
 
-// What the texels say of the first t metres: mean optical depth; one event; several; depth.
+// Decodes the first t metres: mean optical depth; single scattering; multiple scattering; optical depth.
 ALPENGLOW_FN Real aerialMeanDepth(Real4 first, Real t) { return exp(first[3]) * t; }
 
 ALPENGLOW_FN Spectrum aerialSingle(Real4 first, Real4 second, Real mean, Real phaseRayleigh,
-                                Real phaseMie) {
+                                   Real phaseMie) {
   Spectrum floored = exp(Spectrum(first[0], first[1], first[2]));
   Spectrum mie = Spectrum(second[0], second[1], second[2]) * floored;
   Spectrum rayleigh = max(floored - aerialFloor() - mie, SPECTRUM(REAL(0.0)));

@@ -1,6 +1,6 @@
-// Which effects the code is compiled for (alpenglow/effects.h). Literals or specialization constants that the
-// includer may define, common/effect_constants.glsl for our own shaders; what is false leaves nothing behind.
-// Tables without a table of sources, or of moments, are fixed at compile time, since a shader needs what it
+// Which effects the code is compiled for (alpenglow/effects.h). The includer may define them as literals or as
+// specialization constants (common/effect_constants.glsl in our own shaders); the compiler removes what is false.
+// Missing tables of sources or of moments are declared at compile time, since a shader needs every binding that it
 // declares: ALPENGLOW_WITHOUT_SOURCE (no aerosols), ALPENGLOW_WITHOUT_MULTIPLE.
 #ifdef ALPENGLOW_WITHOUT_SOURCE
 #define ALPENGLOW_MIE false

@@ -1,15 +1,15 @@
-// The light field of the moment solver: where its tables hold what. It is solved on nodes (r, mu_s); a
+// The light field of the moment solver: the layout of its tables. It is solved on nodes (r, mu_s); a
 // node keeps the mean radiance N, the second moments that Rayleigh scattering needs, the irradiance E, and
 // what aerosols scatter into each direction. All per unit solar irradiance.
 
 // Texels and the constants of the mappings, all computed in double by the bake
-// (atmosphere/tables/moment_shape.cpp). Laid out as std140 has it.
+// (atmosphere/tables/moment_shape.cpp). The layout is std140.
 struct MomentShape {
   Real depthMu, depthH;    // texels of the table of optical depths
   Real depthSharpness;     // c: u_mu = asinh(c mu) / asinh(c)
   Real heightScale;        // a: of the altitudes of both tables, see depthUv and nodeUr, m
   Real nodesR, nodesMuS;   // nodes
-  Real fieldR, fieldMuS;   // texels of a layer of the table of moments: nodes, and between them
+  Real fieldR, fieldMuS;   // texels of a layer of the table of moments, see fieldTexels
   Real sunCenter, sunWidth;  // theta_s = center + width sinh(low + u range), radians
   Real sunLow, sunRange;
   Real sourceGamma, sourcePsi;  // directions of the table of sources
@@ -21,11 +21,11 @@ struct MomentShape {
   Real degree;             // of the spherical harmonics
   Real taper;              // of the highest ones, where a narrow peak would ring
   Real solverPanels, viewPanels;
-  Real tail;               // 1: the orders that are not solved follow as a geometric series
+  Real tail;               // 1: a geometric series stands for the orders that are not solved
   Real layers;             // of the table of moments: five, or four where nothing wants E
 };
 
-// asin of x in [0, 1/2] and acos to float accuracy: GPUs and lavapipe have them off by up to 1e-4 rad.
+// asin of x in [0, 1/2] and acos to float accuracy: those of GPUs and lavapipe are off by up to 1e-4 rad.
 ALPENGLOW_FN Real arcSineOfSmall(Real x) {
   Real z = x * x;
   return ((((REAL(4.2163199048e-2) * z + REAL(2.4181311049e-2)) * z + REAL(4.5470025998e-2)) * z +
@@ -55,7 +55,7 @@ ALPENGLOW_FN Real2 depthHMu(IN(Medium) m, IN(MomentShape) s, Real2 u) {
 
 // What the table holds there: the mean extinction along the ray, as the optical depth of a ray as long as the
 // shell is thick. The depth itself goes to 0 at the top with the ray's length, and the interpolation of its
-// logarithm there had the sun 23 % off in air that is dense up to the top.
+// logarithm there made the sun 23 % wrong in an atmosphere that is dense up to the top.
 ALPENGLOW_FN Spectrum depthAtUv(IN(Medium) m, IN(MomentShape) s, Real2 u) {
   Real2 at = depthHMu(m, s, u);
   Real h = min(at[0], m.thickness * REAL(0.999755859375));  // at the top itself there is no ray
@@ -72,15 +72,14 @@ ALPENGLOW_FN Real2 depthCoordinate(IN(Medium) m, IN(MomentShape) s, Real h, Real
 
 // The table of moments holds layers below each other: ln N, the second moments xx, zz and xz over N, and ln E.
 
-// Below this a mean radiance or irradiance is dark: its logarithm is cut here, far under a starlit night
-// (per unit solar irradiance).
+// Least mean radiance or irradiance whose logarithm is stored, far below a starlit night (per unit solar
+// irradiance).
 const Real kMinRadiance = REAL(1e-30);
 
-// The highest node: a bit below the top, where the light from above has gone to nothing, and its logarithm
-// with it.
+// The highest node: slightly below the top, where light from above vanishes and has no logarithm.
 ALPENGLOW_FN Real highestNode(IN(Medium) m) { return m.thickness * REAL(0.99609375); }
 
-// As the square root of the altitude near the ground, as the horizon sinks, and as its logarithm above.
+// Like the square root of the altitude near the ground, as the horizon sinks, and like its logarithm above.
 ALPENGLOW_FN Real nodeUr(IN(Medium) m, IN(MomentShape) s, Real h) {
   Real most = asinh(sqrt(highestNode(m) / s.heightScale));
   return min(asinh(sqrt(max(h, REAL(0.0)) / s.heightScale)) / most, REAL(1.0));
@@ -114,8 +113,8 @@ ALPENGLOW_FN Real2 fieldCoordinate(IN(MomentShape) s, Real2 uv) {
 }
 
 // --- Sources: directions by the angle gamma from the sun (from the point opposite it, for aerosols that
-// scatter back) and the azimuth psi about it, 0 downwards. The peak about the sun stays where it is from node
-// to node, and gamma is constant along a ray.
+// scatter back) and the azimuth psi about it, 0 downwards. The peak about the sun has the same coordinates in all
+// nodes, and gamma is constant along a ray.
 
 // A direction in the frame of a point: z up, the sun in the x z plane.
 ALPENGLOW_FN Real3 localDirection(Real mu, Real muS, Real nu) {

@@ -1,6 +1,6 @@
 // Reading the tables of the moment solver (field.glsl). The includer defines, before it includes this:
 //   Spectrum readDepth(Real2 uv), readMoments(Real2 uv), readSource(Real3 uvw)   hardware-filtered fetches
-// The last is not asked for with ALPENGLOW_WITHOUT_SOURCE, nor the last two with ALPENGLOW_WITHOUT_MULTIPLE.
+// ALPENGLOW_WITHOUT_SOURCE makes the last unnecessary, ALPENGLOW_WITHOUT_MULTIPLE the last two.
 // Everything is per unit solar irradiance.
 
 // Optical depth from h to the top in a direction that rises.
@@ -9,7 +9,7 @@ ALPENGLOW_FN Spectrum depthOfRise(IN(Medium) m, IN(MomentShape) s, Real h, Real 
          (distanceToTop(m, h, mu) / m.thickness);
 }
 
-// Equation 5's exponent towards the top, in any direction that misses the ground; for one that hits it,
+// The exponent of equation 5 towards the top, in any direction that misses the ground; for one that hits it,
 // that of the horizon's grazing ray. A ray that sinks is twice its rise from the perigee, less the part
 // behind the point.
 ALPENGLOW_FN Spectrum depthTowardsTop(IN(Medium) m, IN(MomentShape) s, Real h, Real mu) {
@@ -59,7 +59,7 @@ ALPENGLOW_FN Spectrum rayleighSource(IN(MomentShape) s, Real2 node, Real3 v) {
 }
 
 #ifndef ALPENGLOW_WITHOUT_SOURCE
-// The aerosols' part of it, from the table of sources at node `unit`.
+// The aerosols' part of it, from the table of sources at node coordinates `uv`.
 ALPENGLOW_FN Spectrum mieSource(IN(MomentShape) s, IN(SourceRay) ray, Real2 uv, Real mu, Real muS) {
   Real slice = sourceSlice(s, ray, mu, muS);
   Real lower = min(floor(slice), s.sourcePsi - REAL(2.0));

@@ -6,10 +6,10 @@ struct PathLight {
   Spectrum rayleigh;  // S[L0] by molecules, without phase function
   Spectrum mie;       // by aerosols
   Spectrum multiple;  // S[L - L0]
-  Spectrum depth;     // its optical depth
+  Spectrum depth;     // optical depth of the segment
 };
 
-// One node's share; `seen` is the transmittance to the observer times dt.
+// One node's share; `transmittance` is that to the observer times dt.
 ALPENGLOW_FN void addNode(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray, IN(SourceRay) source, Real t,
                           Real h, Spectrum transmittance, bool single, bool multiple, OUT(Spectrum) rayleigh,
                           OUT(Spectrum) mie, OUT(Spectrum) scattered) {
@@ -26,20 +26,20 @@ ALPENGLOW_FN void addNode(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray, IN(Sourc
     scattered = transmittance * fieldSource(m, s, source, h, muAt(m, ray.h, ray.mu, t, h), muS);
 }
 
-// A beam loses T(start) - T(end) in a panel, and no more than that can be scattered out of it. Where a panel
-// is thick its two points may add up to more, `quadrature`: the ratio holds their weights to what there is.
+// A beam loses T(start) - T(end) in a panel, and no more than that can be scattered out of it. In a thick panel
+// the sum over the two points, `quadrature`, may exceed that: the ratio limits their weights.
 ALPENGLOW_FN Spectrum panelLimit(Spectrum start, Spectrum end, Spectrum depth, Spectrum quadrature) {
   Spectrum ratio = min((start - end) / max(quadrature, SPECTRUM(REAL(1e-30))), SPECTRUM(REAL(1.0)));
-  // The difference has digits enough in thick panels only; in others the points are exact.
+  // The difference is precise in thick panels only; in others the quadrature is exact.
   Spectrum thick = clamp(depth - SPECTRUM(REAL(2.0)), REAL(0.0), REAL(1.0));
   return mix(SPECTRUM(REAL(1.0)), ratio, thick);
 }
 
-// How far along a ray its light has been summed up, and what came of it; the scattering coefficients are
-// left to inscatteredLight.
+// State of the sum along a ray: light up to distance t, without the scattering coefficients, which
+// inscatteredLight applies.
 struct InscatteringState {
   PathLight light;
-  Spectrum transmittance;  // transmittance of what lies behind
+  Spectrum transmittance;  // from the observer to t
   Real t;
   Real h;
 };
@@ -73,11 +73,11 @@ ALPENGLOW_FN Spectrum tentBetween(IN(Medium) m, Real h0, Real h1, Real d) {
   return depth;
 }
 
-// One panel more, to distance `next`. nodeA and nodeB are its Gauss points: distance and dt of the panel.
+// Adds a panel, up to distance `next`. nodeA and nodeB are its Gauss points: distance and dt of the panel.
 ALPENGLOW_FN InscatteringState integratePanel(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray, IN(SourceRay) source,
-                                IN(InscatteringState) before, Real2 nodeA, Real2 nodeB, Real next, bool single,
-                                bool multiple) {
-  const Real kNear = REAL(0.25);  // what lies before the points of its integral
+                                              IN(InscatteringState) before, Real2 nodeA, Real2 nodeB, Real next,
+                                              bool single, bool multiple) {
+  const Real kNear = REAL(0.25);  // depths of the two points by the rule's integration matrix
   const Real kCross = REAL(0.03867513459481288);
   InscatteringState state = before;
   Real hA = min(altitudeAt(m, ray.h, ray.mu, nodeA[0]), m.thickness);
@@ -100,7 +100,8 @@ ALPENGLOW_FN InscatteringState integratePanel(IN(Medium) m, IN(MomentShape) s, I
   Spectrum transmittanceA = exp(-depthA);
   Spectrum transmittanceB = exp(-depthB);
   state.transmittance = exp(-state.light.depth);
-  Spectrum loss = transmittanceA * extinctionA + transmittanceB * extinctionB + (transmittanceA + transmittanceB) * tent;
+  Spectrum loss = transmittanceA * extinctionA + transmittanceB * extinctionB +
+                  (transmittanceA + transmittanceB) * tent;
   Spectrum weight = REAL(0.5) * panelLimit(before.transmittance, state.transmittance, depth, REAL(0.5) * loss);
   Spectrum rayleighA, mieA, multipleA, rayleighB, mieB, multipleB;
   addNode(m, s, ray, source, nodeA[0], hA, transmittanceA * weight * nodeA[1], single, multiple, rayleighA, mieA,
@@ -125,15 +126,15 @@ ALPENGLOW_FN Real3 pathCuts(IN(Medium) m, IN(Ray) ray, Real d, bool single) {
   return Real3(min(c1, c3), max(c1, min(c2, c3)), max(c2, c3));
 }
 
-// The first of them after t, else `end`.
+// The first cut after t, or `end`.
 ALPENGLOW_FN Real cutAfter(Real3 cuts, Real t, Real end) {
   return t < cuts[0] ? cuts[0] : t < cuts[1] ? cuts[1] : t < cuts[2] ? cuts[2] : end;
 }
 
-// Equation 11 over the first d metres of a ray: one event (`single`), and all that have been solved
-// (`multiple`), both literals; panels: of two points, for each segment.
+// Equation 11 over the first d metres of a ray: one event (`single`) and all orders that have been solved
+// (`multiple`), both literals; `panels`: of two points, for each smooth segment.
 ALPENGLOW_FN PathLight integrateInscattering(IN(Medium) m, IN(MomentShape) s, IN(Ray) ray, Real d, int panels,
-                                   bool single, bool multiple) {
+                                             bool single, bool multiple) {
   Real3 cuts = pathCuts(m, ray, d, single);
   SourceRay source = makeSourceRay(s, ray.nu);
   InscatteringState state = startInscattering(m, ray);
@@ -149,8 +150,8 @@ ALPENGLOW_FN PathLight integrateInscattering(IN(Medium) m, IN(MomentShape) s, IN
       Real2 nodeA = segmentNode(p, (Real(i) + firstOfPanel()) * du);
       Real2 nodeB = segmentNode(p, (Real(i) + REAL(1.0) - firstOfPanel()) * du);
       state = integratePanel(m, s, ray, source, state, Real2(nodeA[0], nodeA[1] * du),
-                       Real2(nodeB[0], nodeB[1] * du), segmentNode(p, Real(i + 1) * du)[0], single,
-                       multiple);
+                             Real2(nodeB[0], nodeB[1] * du), segmentNode(p, Real(i + 1) * du)[0], single,
+                             multiple);
     }
     start = end;
   }

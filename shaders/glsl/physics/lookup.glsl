@@ -101,7 +101,7 @@ ALPENGLOW_FN Spectrum scatteringOfRay(IN(Medium) m, IN(TableShape) shape, Real h
 // the includer's readSkyView and readSkyViewMie. Interpolation commutes: it is the same number, of two fetches
 // in two dimensions instead of four in three.
 ALPENGLOW_FN Spectrum scatteringOfRayInSkyView(IN(Medium) m, IN(TableShape) shape, Real h, Real mu,
-                                             Real nu, bool hitsGround) {
+                                               Real nu, bool hitsGround) {
   Real2 at = Real2(insetCoordinate(scatteringUnu(nu), shape.scatteringNu),
                    scatteringCoordinateMu(scatteringUmu(m, h, mu, hitsGround), hitsGround,
                                           shape.scatteringMu));

@@ -99,7 +99,7 @@ ALPENGLOW_FN ZenithAngle makeZenithAngle(IN(Medium) m, IN(MomentShape) s, Real h
   return result;
 }
 
-// --- Pass L: light that arrives at a node along the rays of a zenith angle. x = azimuth + azimuths * ring.
+// --- Pass L: light that arrives at a node along the rays of a zenith angle. x = azimuth + azimuths * zenith.
 
 ALPENGLOW_FN Ray nodeRay(IN(Medium) m, IN(NodePoint) p, IN(ZenithAngle) zenith, Real azimuth) {
   Ray ray;
@@ -239,7 +239,7 @@ ALPENGLOW_FN EightModes multipleModes(IN(MomentShape) s, int first, int node, Re
 }
 
 ALPENGLOW_FN EightModes modesOfZenith(IN(Medium) m, IN(MomentShape) s, int x, int node,
-                                    bool firstOrder) {
+                                      bool firstOrder) {
   int index = x / modeGroups(s);
   Real mode = REAL(8.0) * Real(x - index * modeGroups(s));
   int first = int(s.azimuths) * index;
@@ -259,8 +259,8 @@ ALPENGLOW_FN EightModes modesOfZenith(IN(Medium) m, IN(MomentShape) s, int x, in
 // --- Pass Y: Legendre functions. x = l (l + 1) / 2 + m.
 
 // Rows of the table of Legendre functions: the zenith angles of each altitude, those of order 1, and the
-// angles of the sources. The functions are stored times what every sum over them has: the ring's
-// weight, or the aerosols' coefficient.
+// angles of the sources. The functions are stored times the common factor of every sum over them: the
+// zenith angle's weight, or the aerosols' coefficient.
 ALPENGLOW_FN int legendreRow(IN(MomentShape) s, int r, int zenith, int fine) {
   int coarse = zenithCount(s, 1) * int(s.nodesR);
   return fine == 1 ? r * zenithCount(s, 1) + zenith : coarse + r * zenithCount(s, kFineZeniths) + zenith;

@@ -2,32 +2,32 @@
 // rebuilt for each camera and sun. Rows are dense towards the horizon on both of its sides, so it is usable
 // from the ground, where the sky fills half the sphere, to outer space, where it is a thin ring.
 
-// Angles from the nadir, of the horizon and of the highest ray that meets the atmosphere (pi inside it). Given
-// in place of zenith angles, which have no digits left for a planet far below.
+// Angles from the nadir, of the horizon and of the highest ray that meets the atmosphere (pi inside it). They
+// replace zenith angles, which lose precision for a planet far below.
 struct SkyViewParams {
   Real horizon;
   Real span;  // from the horizon to the highest ray
-  Real bend;  // the less, the nearer to the horizon the ground's rows draw together
+  Real bend;  // the less, the denser the ground's rows next to the horizon
 };
 
-// The same of the sky's rows seen from inside.
+// The same for the sky's rows, for cameras inside the atmosphere.
 ALPENGLOW_FN Real skyRowBend() { return REAL(0.8); }
 
-// The highest ray's angle from the nadir: pi inside the atmosphere, less than a right one outside.
+// The highest ray's angle from the nadir is pi inside the atmosphere, less than a right angle outside.
 ALPENGLOW_FN bool viewFromSpace(IN(SkyViewParams) view) {
   return ALPENGLOW_SPACE_VIEWS && view.horizon + view.span < REAL(2.0);
 }
 
-// Of `columns`, those in use. Seen from space the terminator crosses them, where light falls by orders of
-// magnitude; from inside all that is left of it is twilight. A column more is filled if there is one, for
-// the filter.
+// The columns in use. In a view from space the terminator crosses them, where light falls by orders of
+// magnitude; inside the atmosphere only twilight is left of it, and half of `columns` suffice. One more column is
+// filled for the filter.
 ALPENGLOW_FN Real azimuthColumns(IN(SkyViewParams) view, Real columns) {
   return viewFromSpace(view) ? columns : REAL(0.5) * columns - REAL(1.0);
 }
 
-// u in [0, 1] of a ray on its side of the horizon, and back. The square root is what light is smooth in on
-// both sides of the horizon, and at the far side of the ring, where rays come to an end. Seen from near
-// the ground the distance to it changes by a factor of a thousand in a degree.
+// u in [0, 1] of a ray on its side of the horizon, and back. Light is smooth in the square root of the angle on
+// both sides of the horizon, and at the outer edge of the ring of atmosphere, where rays get short. From near the
+// ground the distance to the ground changes by a factor of a thousand in a degree.
 ALPENGLOW_FN Real nadirAngleToU(IN(SkyViewParams) view, Real nadirAngle, bool hitsGround) {
   Real off = hitsGround ? view.horizon - nadirAngle : nadirAngle - view.horizon;
   Real whole = max(hitsGround ? view.horizon : view.span, REAL(1e-30));
@@ -49,13 +49,13 @@ ALPENGLOW_FN Real uToNadirAngle(IN(SkyViewParams) view, Real u, bool hitsGround)
 
 // Texels of a table over directions: the sky-view LUT, or a layer of the aerial-perspective LUT.
 struct DirectionGrid {
-  Real groundRows;  // the sky's follow
+  Real groundRows;  // the sky's rows follow
   Real rows;
   Real columns;  // in use
   Real width;    // of the texture
 };
 
-// Of a sky-view LUT of columns x rows, which its tables' quality decides.
+// Grid of a sky-view LUT of columns x rows; the quality of its tables decides these.
 ALPENGLOW_FN DirectionGrid skyViewGrid(IN(SkyViewParams) view, Real columns, Real rows) {
   DirectionGrid grid;
   grid.groundRows = floor(rows * (viewFromSpace(view) ? REAL(0.6) : REAL(0.3)));
@@ -89,7 +89,7 @@ ALPENGLOW_FN Ray gridRay(IN(Medium) m, IN(DirectionGrid) grid, IN(SkyViewParams)
   Real nu = clamp(mu * muS + sine * sqrt(max(REAL(1.0) - muS * muS, REAL(0.0))) * cosPhi, REAL(-1.0),
                   REAL(1.0));
   Ray ray = makeRay(m, altitude, mu, sine, muS, nu);
-  // The row says on which side of the horizon a ray lies, whatever its angle rounds to.
+  // The row says on which side of the horizon a ray lies, despite rounding of its angle.
   ray.hitsGround = hitsGround;
   ray.extent =
       hitsGround ? distanceToGround(m, ray.h, ray.mu) : distanceToTop(m, ray.h, ray.mu);
@@ -97,7 +97,7 @@ ALPENGLOW_FN Ray gridRay(IN(Medium) m, IN(DirectionGrid) grid, IN(SkyViewParams)
 }
 
 // Angle between a direction and the nadir from its zenith cosine and from sin^2 of half that angle, which
-// keeps its digits near the nadir: arcCosine(-mu) else.
+// is precise near the nadir; otherwise arcCosine(-mu).
 ALPENGLOW_FN Real angleFromNadir(Real mu, Real sineHalfSquared) {
   Real a = abs(mu);
   bool wide = a > REAL(0.5);
@@ -107,7 +107,7 @@ ALPENGLOW_FN Real angleFromNadir(Real mu, Real sineHalfSquared) {
   return mu < REAL(0.0) ? fromAxis : REAL(ALPENGLOW_PI) - fromAxis;
 }
 
-// Of a direction: its angle from the nadir, and the sine of half its azimuth from the sun; `up` is the
+// The angle of a direction from the nadir, and the sine of half its azimuth from the sun; `up` is the
 // camera's vertical, `sunAzimuth` the horizontal unit vector towards the sun, or 0 for a sun in the zenith.
 ALPENGLOW_FN Real2 skyViewAngles(Real3 up, Real3 sunAzimuth, Real3 direction) {
   Real mu = dot(direction, up);
@@ -124,7 +124,7 @@ ALPENGLOW_FN Real2 skyViewAngles(Real3 up, Real3 sunAzimuth, Real3 direction) {
 ALPENGLOW_FN Real uniformPhase() { return REAL(0.25) / REAL(ALPENGLOW_PI); }
 
 ALPENGLOW_FN void encodeSkyView(Spectrum smooth_, Spectrum mie, OUT(Spectrum) logarithm,
-                              OUT(Spectrum) mieShare) {
+                                OUT(Spectrum) mieShare) {
   Spectrum light = smooth_;
   if (ALPENGLOW_MIE) light += mie * uniformPhase();
   light = max(light, SPECTRUM(kMinRadiance));

@@ -151,7 +151,7 @@ struct DensityPoint {
 // Zenith angle i: light that arrives from its azimuths and is scattered towards the view.
 // `withGround` is a literal: zenith angles above the horizon have no code for the ground.
 ALPENGLOW_FN Spectrum densityOfZenith(IN(Medium) m, IN(TableShape) shape, IN(DensityPoint) p, int i,
-                                  bool withGround) {
+                                      bool withGround) {
   Real step = REAL(ALPENGLOW_PI) / Real(kSphereTheta);
   Real cosTheta = cos(sphereTheta(i));
   Real sinTheta = sin(sphereTheta(i));

@@ -48,7 +48,7 @@ class LightShaftConventionsTest : public ShadowCheckTest {
     }
     return worst;
   }
-  /// Light that a picture lacks beside one without shafts, in all.
+  /// Total light that light shafts remove from a picture.
   double shade(LightShaftSetup setup, const FrameState& d, const LightShaftPicture& picture) {
     setup.shafts = false;
     const LightShaftPicture unshadowed = draw(setup, d);
@@ -141,7 +141,7 @@ TEST_F(LightShaftConventionsTest, DepthWithStencilIsReadToo) {
   EXPECT_GT(formats, 0);
 }
 
-// Exact against the reference with parallel rays, half of which begin in shadow.
+// LightVolume against the reference with parallel rays, half of which begin in shadow.
 TEST_F(LightShaftConventionsTest, OrthographicLengthsAreThoseOfTheReference) {
   useThinMedium();
   FrameState d = stage({"box above",

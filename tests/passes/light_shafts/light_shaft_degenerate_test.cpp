@@ -12,8 +12,8 @@ using reference::test::Mesh;
 
 class LightShaftDegenerateTest : public ShadowCheckTest {
  protected:
-  /// All methods: finite, not negative, and no brighter than without shafts; and exact's pixels lie
-  /// in none or one shadow.
+  /// All methods: finite, not negative, and no brighter than without light shafts; pixels of
+  /// LightVolume lie in none or one shadow.
   void expectSane(const FrameState& d, bool closed = true) {
     for (const LightShaftMethod method :
          {LightShaftMethod::LightVolume, LightShaftMethod::ShadowVolume,

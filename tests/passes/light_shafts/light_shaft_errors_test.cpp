@@ -156,7 +156,7 @@ TEST_F(LightShaftErrorsTest, BadCallsRecordNothing) {
   resourceReport(context(), &start);
   const auto refuse = [&](const FrameDesc& frame, const char* parts) {
     expectRefused(beginFrame(view, frame, nullptr), kBad, parts);
-    // Said once.
+    // Reported once.
     run([&](VkCommandBuffer c) {
       EXPECT_EQ(alpenglow::recordLuts(view, c), Status::NotReady);
       EXPECT_EQ(recordShadowMap(view, c), Status::NotReady);
@@ -207,7 +207,7 @@ TEST_F(LightShaftErrorsTest, BadCallsRecordNothing) {
   EXPECT_EQ(after.light.data, before.light.data);
 }
 
-// A planet-centred position where the world's is meant; said once by the view.
+// A planet-centred position instead of one in the world; the view reports it once.
 TEST_F(LightShaftErrorsTest, CastersFarOutsideTheirBoundsAreWarnedOf) {
   LightShaftRig& rig = rigOf(setup_, kExtent);
   View* view = nullptr;
@@ -238,7 +238,7 @@ TEST_F(LightShaftErrorsTest, CastersFarOutsideTheirBoundsAreWarnedOf) {
   destroyView(view);
 }
 
-// Each function wants what the frame's earlier ones record.
+// Each function needs what the earlier ones of the frame record.
 TEST_F(LightShaftErrorsTest, FunctionsAreCalledInTheirOrder) {
   constexpr Status kBad = Status::InvalidArgument;
   LightShaftRig& rig = rigOf(setup_, kExtent);
@@ -255,8 +255,8 @@ TEST_F(LightShaftErrorsTest, FunctionsAreCalledInTheirOrder) {
     return true;
   });
   FrameState moved = drawFrom({51, 0, 0}, 90, 15, 60, kExtent, 36, 200);
-  // The last picture's shadow map, shafts and LUTs are another frame's; those of casters without a
-  // version always are.
+  // The last picture's shadow map, light shafts and LUTs belong to another frame; those of casters
+  // without a version always do.
   for (const FrameState& state : {draw_, moved}) {
     ResourceReport start, end;
     resourceReport(context(), &start);
@@ -278,7 +278,7 @@ TEST_F(LightShaftErrorsTest, FunctionsAreCalledInTheirOrder) {
     resourceReport(context(), &end);
     EXPECT_EQ(end.draws, start.draws);
   }
-  // The LUTs are those of `moved`: no map of them is asked for again, but shafts want theirs.
+  // The LUTs are those of `moved` and need no update, but light shafts do.
   ASSERT_EQ(beginFrame(view, frameOf(rig, draw_), nullptr), Status::Ok) << message();
   run([&](VkCommandBuffer c) {
     EXPECT_EQ(recordShadowMap(view, c), Status::Ok);
@@ -329,7 +329,7 @@ TEST_F(LightShaftErrorsTest, OnlyShadowVolumesNeedGeometryShaders) {
   destroyContext(reduced);
 }
 
-/// What a view with shafts has beyond one without: made by createView, and by the first frame.
+/// Additional objects of a view with light shafts: made by createView, and by the first frame.
 struct Added {
   uint64_t pipelines, images, buffers, frameImages;
 };
@@ -356,7 +356,7 @@ TEST_F(LightShaftErrorsTest, UnusedMethodsCreateNothing) {
   const Added off = madeBy(LightShaftMethod::Off);
   EXPECT_EQ(off.buffers, 0u);
   EXPECT_EQ(off.frameImages, 0u);
-  // The map, blocks, the surface with and without a LUT; sums.
+  // Shadow map, blocks, light-volume mesh with and without a LUT; sums.
   const Added exact = madeBy(LightShaftMethod::LightVolume);
   EXPECT_EQ(exact.pipelines - off.pipelines, 4u);
   EXPECT_EQ(exact.images - off.images, 1u);
@@ -394,7 +394,7 @@ TEST_F(LightShaftErrorsTest, DisabledAerialPerspectiveCreatesNothing) {
   const uint64_t reduced = pipelinesOf(AerialPerspective::Off, &images);
   const uint64_t with = pipelinesOf(AerialPerspective::On, &aerialPerspectiveImages);
   const uint64_t integrated = pipelinesOf(AerialPerspective::Integrate, &integratedImages);
-  // Air from its LUT, and the LUT's own; or by integration.
+  // Aerial perspective from its LUT, and the LUT's own objects; or by integration.
   EXPECT_EQ(with, reduced + 2);
   EXPECT_EQ(aerialPerspectiveImages, images + 3);
   EXPECT_EQ(integrated, reduced + 1);

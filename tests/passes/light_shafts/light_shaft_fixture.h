@@ -1,5 +1,5 @@
-// A small host with casters: draws them into its depth image, and the library's shadows, air and
-// sky; and the same rays for the reference in double.
+// A small host with casters: draws them into its depth image, and the library's shadows,
+// atmosphere and sky; and the same rays for the reference in double.
 #pragma once
 
 #include "atmosphere/reference/scene_light.h"
@@ -21,8 +21,8 @@ struct LightShaftSeconds {
 
 struct LightShaftPicture {
   Picture light;              ///< Of the atmosphere and the sky over a black scene.
-  std::vector<float> sums;    ///< Four a pixel (exact), or two (paper).
-  std::vector<float> bounds;  ///< Two a pixel (paper).
+  std::vector<float> sums;    ///< Four a pixel (LightVolume), or two (ShadowVolume).
+  std::vector<float> bounds;  ///< Two a pixel (ShadowVolume).
   std::vector<float> depth;   ///< The host's.
   LightShaftSeconds seconds;
 };
@@ -42,10 +42,10 @@ class LightShaftTest : public SkyTest {
   Casters casters(uint64_t version = 0);
   /// Of `target`'s depth image, with casters().
   FrameDesc frameOf(const LightShaftRig& target, const FrameState& draw);
-  bool drawNothing = false;  ///< The callback of casters() leaves them out.
-  /// Over a black ground, so that what shadows take away is the atmosphere's. SetUp does it.
+  bool drawNothing = false;  ///< The callback of casters() draws nothing.
+  /// Over a black ground, so that shadows only remove light of the atmosphere. Called by SetUp.
   void useEarth();
-  /// Air of one density, so thin that light is proportional to the length of lit air.
+  /// A medium of constant density, so thin that light is proportional to the lit length.
   void useThinMedium();
   Parameters parameters;  ///< Of `baked`.
   Tables* baked = nullptr;

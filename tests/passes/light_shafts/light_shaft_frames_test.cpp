@@ -1,5 +1,5 @@
 // From frame to frame: when the shadow map is drawn again, other extents of the scene's depth,
-// frames that never execute, and the states that images are said to be in.
+// frames that never execute, and the reported states of images.
 #include <algorithm>
 #include <cmath>
 
@@ -30,7 +30,7 @@ class LightShaftFramesTest : public ShadowCheckTest {
     desc.casters.version = version;
     return desc;
   }
-  /// Whether the frame says that it draws the shadow map; it does what it says.
+  /// Whether the frame reports that it draws the shadow map; checks that it does.
   bool drawsMap(const FrameDesc& frame) {
     View* const view = rigOf(setup_, kExtent).view;
     finishFrames(context());
@@ -104,7 +104,7 @@ TEST_F(LightShaftFramesTest, TheShadowMapIsDrawnWhenSomethingChanges) {
   EXPECT_TRUE(drawsMap(nothing));
 }
 
-// A direction that a host computes anew is not the same to the last bit.
+// A direction that a host computes again may differ in the last bit.
 TEST_F(LightShaftFramesTest, RoundingIsNoOtherSun) {
   LightShaftPicture first = draw(setup_, state_);
   EXPECT_TRUE(drawsMap(frameWith(7)));
@@ -114,7 +114,7 @@ TEST_F(LightShaftFramesTest, RoundingIsNoOtherSun) {
   state_.sun.direction[1] = east;
 }
 
-// Shadows of a map that was kept are those of one that is drawn.
+// A kept shadow map casts the same shadows as a new one.
 TEST_F(LightShaftFramesTest, AKeptMapCastsTheSameShadows) {
   for (const LightShaftMethod method :
        {LightShaftMethod::LightVolume, LightShaftMethod::RayMarch}) {
@@ -229,7 +229,7 @@ TEST_F(LightShaftFramesTest, AnAbandonedFrameDrewNoMap) {
   EXPECT_FALSE(drawsMap(frameWith(4)));
 }
 
-TEST_F(LightShaftFramesTest, ImagesAreInTheLayoutsThatAreTold) {
+TEST_F(LightShaftFramesTest, ImagesAreInTheReportedLayouts) {
   for (const LightShaftMethod method :
        {LightShaftMethod::LightVolume, LightShaftMethod::ShadowVolume,
         LightShaftMethod::RayMarch}) {

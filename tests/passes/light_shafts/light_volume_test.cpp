@@ -1,4 +1,4 @@
-// Exact light shafts against exact shadow intervals in double: how long, and how much light.
+// LightVolume against exact shadow intervals in double: lengths, and light.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,7 +15,7 @@ constexpr double kTexels = 1.5;
 
 class LightVolumeTest : public ShadowCheckTest {
  protected:
-  /// Shadows entered less those left, to where each pixel's ray ends: 0 in light, 1 in shadow.
+  /// Shadows entered minus shadows left, to where each pixel's ray ends: 0 in light, 1 in shadow.
   void expectCounts(const char* name, const FrameState& d, const LightShaftPicture& picture) {
     const float start = startsInShadow(d) ? 1.0f : 0.0f;
     int bad = 0;

@@ -9,7 +9,7 @@
 
 namespace alpenglow::testing {
 
-/// A scene of casters, in local coordinates (up, east, north), and who looks at it.
+/// A scene of casters, in local coordinates (up, east, north), and its camera.
 struct ShadowScene {
   const char* name = "";
   std::vector<reference::test::Mesh> casters;
@@ -18,15 +18,15 @@ struct ShadowScene {
   double sunElevation = 40.0, sunAzimuth = 180.0;
 };
 
-/// The scenes that every method is asked about: shadow_scenes.cpp.
+/// The scenes that every method is tested with: shadow_scenes.cpp.
 std::vector<ShadowScene> shadowScenes();
 /// Closed, bumpy, overlapping; the same for the same seed.
 ShadowScene randomScene(uint32_t seed);
 /// Hills 30 km wide, closed below, seen from close above them.
 ShadowScene hillScene(double sunAzimuth);
 
-/// A ray's shadows, three times: none counts that isn't there for all neighbours, as they are, and
-/// all that any neighbour has.
+/// A ray's shadows in three versions: those common to all neighbours, its own, and those of any
+/// neighbour.
 struct ShadowBand {
   reference::SceneRay ray;
   double length = 0.0;  ///< Metres to what ends the ray.
@@ -50,7 +50,7 @@ class ShadowCheckTest : public LightShaftTest {
   /// Whether the surface at the end of a ray is in another's shadow: nothing where it faces away
   /// from the sun, or within `slack` metres of the shadow's edge.
   std::optional<bool> surfaceInShadow(const ShadowBand& band, double slack);
-  /// Light that shadows keep from each pixel, channel 1.
+  /// Light that shadows remove from each pixel, channel 1.
   std::vector<double> losses(LightShaftSetup setup, const FrameState& draw, LightShaftPicture* with,
                              LightShaftPicture* unshadowed);
 };

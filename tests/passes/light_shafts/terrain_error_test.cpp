@@ -16,7 +16,7 @@ constexpr VkExtent2D kSize = {256, 192};
 
 Vector vector(const Vec& v) { return {v[0], v[1], v[2]}; }
 
-/// The single scattering that shadows keep from a pixel.
+/// The single scattering that shadows remove from a pixel.
 struct Wanted {
   uint32_t x, y;
   bool edge;  ///< Next to an edge of the picture's depth, or of a shadow.
@@ -119,7 +119,7 @@ class TerrainErrors : public TerrainLightShaftTest {
     return errors;
   }
 
-  /// All of the light, integrated through the tables: what shadows keep is taken from this.
+  /// All light, integrated through the tables: the loss in shadows is subtracted from it.
   LightShaftPicture unshadowed(const FrameState& d) {
     LightShaftSetup setup;
     setup.shafts = false;

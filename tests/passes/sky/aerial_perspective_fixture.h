@@ -7,15 +7,15 @@
 
 namespace alpenglow::testing {
 
-/// Where to look in the volume: a unit vector, and metres of air, or the negative share of all that
-/// there are.
+/// Where to look in the LUT: a unit vector, and metres in the atmosphere, or the negative share of
+/// all that there are.
 struct AerialQuery {
   float direction[3];
   float inside;
 };
 
-/// From the volume, and (wanted) by integration. `inside`: metres of air; the fourth values else
-/// unused.
+/// From the LUT, and (wanted) by integration. `inside`: metres in the atmosphere; the fourth values
+/// else unused.
 struct AerialAnswer {
   float single[3], inside;
   float multiple[3], unused0;
@@ -46,10 +46,10 @@ class AerialPerspectiveTest : public SkyTest {
   /// One for all tests of a program, made at the first use.
   passes::AerialPerspectiveLut* volume();
   void fill(const FrameState& draw, Tables* with = nullptr);
-  /// Looks into the volume as it was filled last.
+  /// Looks into the LUT as it was filled last.
   std::vector<AerialAnswer> ask(const FrameState& draw, const std::vector<AerialQuery>& queries,
                                 Tables* with = nullptr);
-  /// User CPU seconds of a submit with `count` queries, or of filling the volume: the least of
+  /// User CPU seconds of a submit with `count` queries, or of filling the LUT: the least of
   /// some.
   double askSeconds(const FrameState& draw, AerialAsk what,
                     const std::vector<AerialQuery>& queries);

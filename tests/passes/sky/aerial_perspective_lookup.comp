@@ -30,7 +30,7 @@ void main() {
   if (i >= uint(sunCount.w)) return;
   vec3 view = queries[i].xyz;
   Ray ray = alpenglowRay(upAltitude.xyz, upAltitude.w, view, sunCount.xyz);
-  // Metres of air, or the negative share of all that there is.
+  // Metres in the atmosphere, or the negative share of the whole ray.
   float inside = queries[i].w < 0.0 ? -queries[i].w * ray.extent : queries[i].w;
   float distance_ = ray.start + inside;
   AerialView air = AerialView(SkyViewParams(azimuthHorizon.w, rest.x, rest.y), rest.z, rest.w, height);
@@ -55,7 +55,7 @@ void main() {
   answers[i].singleAlone = vec4(alpenglowAerialSingle(aerialRay, distance_), 0.0);
   PathLight path =
       integrateInscattering(alpenglowMedium, alpenglowShape, ray, alpenglowInside(ray, distance_),
-                  4 * int(alpenglowShape.viewPanels), true, true);
+                            4 * int(alpenglowShape.viewPanels), true, true);
   bool any_ = ray.inAtmosphere;
   Spectrum single = path.rayleigh * rayleighPhase(ray.nu) +
                     path.mie * miePhase(alpenglowMedium.mieAsymmetry, ray.nu);

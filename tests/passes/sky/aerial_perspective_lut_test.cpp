@@ -131,8 +131,8 @@ class AerialPerspectiveLutTest : public AerialPerspectiveTest {
 };
 
 // By day and under a low sun the goal is 0.3 % (p95) and 1 % (p99) of what a segment sends. In
-// twilight, and from space, where the terminator is in view and the thin air's segments are next to
-// dark, it is missed: there errors count against a thousandth of the brightest ray.
+// twilight, and from space, where the terminator is in view and segments of the thin atmosphere are
+// almost dark, it is missed: there errors count against a thousandth of the brightest ray.
 TEST_F(AerialPerspectiveLutTest, MatchesIntegrationAtAllDistances) {
   std::printf("%u bytes\n", static_cast<unsigned>(volume()->lut().bytes()));
   std::printf("per cent, p95 p99 max: own segment (>= 100 m) | scene | single | transmittance\n");
@@ -195,7 +195,7 @@ TEST_F(AerialPerspectiveLutTest, DifferencesAreThoseOfSegments) {
   }
 }
 
-/// Of the volume's light along a row of queries, relative to it.
+/// Of the LUT's light along a row of queries, relative to it.
 Steps lightSteps(const std::vector<AerialAnswer>& answers) {
   Steps worst;
   for (size_t c = 0; c < 3; ++c)

@@ -9,7 +9,7 @@
 namespace alpenglow::testing {
 namespace {
 
-/// What is looked at, and how far a picture from the slice may be from one without.
+/// A view, and how far its picture from the LUT may be from an integrated one.
 struct Look {
   const char* name;
   double altitude;

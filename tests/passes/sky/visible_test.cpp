@@ -1,4 +1,4 @@
-// Which variant of the pipeline a camera gets: what is left out is in no pixel.
+// Which pipeline variant a camera gets: no pixel shows what the variant lacks.
 #include <algorithm>
 #include <cmath>
 #include <random>

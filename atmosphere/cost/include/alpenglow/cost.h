@@ -1,5 +1,5 @@
 // What accuracy costs in time, measured on the device at hand: Alpenglow::cost. Bakes and draws
-// with many settings of the tables and with simpler models, and holds each against path-traced
+// with many settings of the tables and with simpler models, and compares each with path-traced
 // truth.
 #pragma once
 
@@ -37,7 +37,7 @@ struct BandError {
 inline constexpr uint32_t kViewCount = 6;
 inline constexpr const char* kViewNames[kViewCount] = {"ground 40", "ground 3", "ground -4",
                                                        "ground -9", "10 km",    "space"};
-inline constexpr uint32_t kGroundViews = 4;  ///< The first.
+inline constexpr uint32_t kGroundViews = 4;  ///< The first of these.
 
 /// One setting, measured.
 struct Row {
@@ -57,7 +57,7 @@ struct Row {
   double groundFrame_ms() const;
 };
 
-/// A scene drawn by a model, and how far it is from the finest: same exposure.
+/// A scene drawn by a model, and its difference from the finest at the same exposure.
 struct Comparison {
   std::string scene, model;
   io::ByteImage picture, difference;
@@ -69,10 +69,10 @@ struct Report {
   std::string device, driver, vulkan, library, date, command, machine;
   std::string clock;  ///< "user CPU" or "GPU timestamps".
   bool quick = false;
-  double seconds = 0.0;  ///< That it all took, wall clock.
+  double seconds = 0.0;  ///< Wall-clock time of the whole measurement.
 };
 
-/// What a program measures with code of its own, such as light shafts over its terrain.
+/// Measurements by a program's own code, such as light shafts over its terrain.
 using MoreRowsFn = std::function<io::Result<std::vector<Row>>()>;
 
 struct Options {

@@ -13,8 +13,8 @@ namespace alpenglow::io {
 Result<Parameters> parseAtmosphere(const std::string& text, const std::string& name);
 Result<Parameters> readAtmosphere(const std::string& path);
 
-/// The file's text; reading it back gives the same parameters, bit for bit, but for a sun's radius
-/// that no number of degrees gives (one in eleven): it comes back as a neighbouring double.
+/// The file's text. Reading it back gives the same parameters, bit for bit, except for a sun's
+/// radius that equals no number of degrees (one in eleven): it comes back as a neighbouring double.
 std::string formatAtmosphere(const Parameters& parameters);
 Done writeAtmosphere(const std::string& path, const Parameters& parameters);
 

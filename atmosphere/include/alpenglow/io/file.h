@@ -18,7 +18,7 @@ Result<std::string> readFile(const std::string& path, uint64_t limit);
 /// is open already, at its place in whatever it belongs to.
 Done writeFile(const std::string& path, const void* data, size_t size);
 
-/// Says early, before hours of work, that writeFile could not write there: the folder is missing or
+/// Fails early, before hours of work, where writeFile could not write: the folder is missing or
 /// read-only, `path` is a folder, or the device is full. Makes a file beside a regular one and
 /// removes it again.
 Done checkOutput(const std::string& path);

@@ -10,16 +10,16 @@
 
 namespace alpenglow::io {
 
-/// How a flythrough comes to a key from the one before.
+/// How a flythrough moves from the previous key to a key.
 enum class FlythroughMove : uint32_t {
-  Smooth,  ///< Without jerks; at rest at the first key, the last, and on both sides of a cut.
-  Linear,  ///< At one speed.
-  Cut,     ///< Not at all: the one before stays until this one's time.
+  Smooth,  ///< Smoothly; at rest at the first key, the last, and on both sides of a cut.
+  Linear,  ///< At constant speed.
+  Cut,     ///< The previous key's scene stays until this key's time.
 };
 
 struct FlythroughKey {
   double time_s = 0.0;
-  std::string caption;  ///< Of the time from here to the next key.
+  std::string caption;  ///< Shown from here to the next key.
   FlythroughMove move = FlythroughMove::Smooth;
   Scene scene;
 };
@@ -36,8 +36,8 @@ struct Flythrough {
 inline constexpr uint32_t kMaxFlythroughFrames = 1'000'000;
 inline constexpr uint32_t kMaxFlythroughKeys = 10'000;
 
-/// Reads and checks everything; paths in the file are relative to it. A key has all that it doesn't
-/// give from the one before.
+/// Reads and checks everything; paths in the file are relative to it. A key takes what it leaves
+/// out from the previous key.
 Result<Flythrough> readFlythrough(const std::string& path);
 /// As readFlythrough, for text; `folder` is where its paths start.
 Result<Flythrough> parseFlythrough(const std::string& text, const std::string& name,
@@ -50,10 +50,10 @@ double timeOfFrame(const Flythrough& flythrough, uint32_t frame);
 /// The last key that is not after this time; the first for times before it.
 const FlythroughKey& keyAt(const Flythrough& flythrough, double time_s);
 
-/// The scene at a time: at a key's time the key's own, before the first and after the last theirs.
-/// Between two keys places lie on the great circle between theirs, altitude h runs in
-/// log(1 m + h), exposure, fov and an orthographic height in their logarithms, angles the shorter
-/// way round, and everything else, the numbers of an atmosphere too, as it is.
+/// The scene at a time: at a key's time that key's scene; before the first key the first, after the
+/// last the last. Between two keys positions lie on the great circle, altitude h is interpolated as
+/// log(1 m + h), exposure, fov and an orthographic height as their logarithms, angles the shorter
+/// way round, and all other numbers, those of an atmosphere included, linearly.
 Scene sceneAt(const Flythrough& flythrough, double time_s);
 
 }  // namespace alpenglow::io

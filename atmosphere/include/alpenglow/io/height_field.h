@@ -27,9 +27,9 @@ struct HeightMap {
 };
 
 /// Reads a PNG (8 or 16 bits, no palette), TIFF (integers of 8, 16 or 32 bits, or floats) or EXR
-/// image of at least 2x2 samples. Other channels than the first are ignored; a grey image's is its
-/// grey, a colour image's red. Alpha changes nothing. The error names what is wrong, and where for
-/// a height that is not finite.
+/// image of at least 2x2 samples. Channels other than the first are ignored: the height is the grey
+/// of a grey image, the red of a colour image. Alpha changes nothing. The error names what is
+/// wrong, and where a height is not finite.
 Result<HeightMap> readHeightMap(const std::string& path, const HeightUnits& units = {});
 
 }  // namespace alpenglow::io

@@ -15,14 +15,14 @@ struct ReportPass {
   std::string name;
   uint64_t dispatches = 0;
   uint64_t draws = 0;
-  uint64_t bytes = 0;                ///< Most device memory that the library held during the pass.
+  uint64_t bytes = 0;                ///< Peak of the library's device memory during the pass.
   std::optional<double> cpuSeconds;  ///< User CPU over submit and wait; none: not measured.
   std::optional<double> gpuSeconds;
 };
 
 struct Report {
   std::string device;     ///< Empty (null in the file) when no device was used.
-  ResourceReport totals;  ///< `images`, `buffers` and `bytes`: most at one time.
+  ResourceReport totals;  ///< `images`, `buffers` and `bytes`: peaks.
   std::vector<ReportPass> passes;
 };
 

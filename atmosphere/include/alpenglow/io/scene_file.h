@@ -30,8 +30,8 @@ struct SceneCamera {
   double roll = 0.0;        ///< Clockwise.
   Projection projection = Projection::Perspective;
   double fov = 0.0;  ///< Default 60 degrees, or 180 for a fisheye; 0 where orthographic.
-  /// Given: the camera is orthographic and sees this many metres from bottom to top; `projection`
-  /// is then Perspective.
+  /// Given: the camera is orthographic and its picture spans this many metres from bottom to top;
+  /// `projection` is then Perspective.
   std::optional<double> orthographicHeight_m;
 };
 
@@ -69,23 +69,24 @@ struct SceneStars {
 /// How light shafts are drawn.
 enum class SceneLightShafts : uint32_t {
   Auto,          ///< The program's choice; none where there is no terrain.
-  ShadowVolume,  ///< Shadow volumes, with the single length of shadow a ray of the 2008 paper.
-  LightVolume,   ///< The sum over all lit segments of a ray.
+  ShadowVolume,  ///< Shadow volumes with one length of shadow per ray, as in the 2008 paper.
+  LightVolume,   ///< Light-volume mesh: the sum over all lit segments of a ray.
   RayMarch,      ///< Samples along the ray in a shadow map.
   Off,
 };
 
-/// What answers for the atmosphere of a scene: docs/baselines.md.
+/// The model of a scene's atmosphere: docs/baselines.md.
 enum class SceneModel : uint32_t {
   Bruneton,  ///< All orders, by the scene's solver.
-  Single,    ///< The same of one event.
+  Single,    ///< The same with one scattering event.
   HoffmanPreetham,
   ONeil,
   Schafhitzel,
   Hillaire,
 };
 
-/// What a scene may ask for while it is shown: alpenglow/plan.h. Without it a scene is a still.
+/// What a scene may ask for while it is shown: alpenglow/plan.h. Without it the scene is one still
+/// picture.
 struct SceneRequirements {
   std::optional<double> altitude_m[2];    ///< Of the camera, from and to. None: its own.
   std::optional<double> sunElevation[2];  ///< Radians. None: its own.
@@ -102,8 +103,8 @@ struct Scene {
   std::string albedoMap;  ///< A path that can be opened from here; empty: the uniform albedo.
   std::optional<SceneTerrain> terrain;
   std::vector<SceneBalloon> balloons;
-  std::optional<SceneStars> stars;                   ///< None: a sky without.
-  SceneLightShafts shafts = SceneLightShafts::Auto;  ///< Off, too, where effects.light_shafts is.
+  std::optional<SceneStars> stars;                   ///< None: no stars.
+  SceneLightShafts shafts = SceneLightShafts::Auto;  ///< Also off where effects.light_shafts is.
   uint32_t lightShaftStepCount = 32;  ///< Along a ray, of SceneLightShafts::RayMarch.
   uint32_t width = 1024;
   uint32_t height = 768;
@@ -137,13 +138,13 @@ Result<Scene> readScene(const std::string& path);
 Result<Scene> parseScene(const std::string& text, const std::string& name,
                          const std::string& folder);
 
-/// The content of a scene file, for a scene that a file could hold. A preset's parameters are its
-/// name. Sun, camera, terrain and balloons have all their fields; others are left out at their
+/// The content of a scene file, for a scene that a file could hold. Parameters of a preset become
+/// its name. Sun, camera, terrain and balloons have all their fields; others are left out at their
 /// defaults. Paths are made absolute and lexically normal ("a/../b" is "b"), since the content may
 /// be put anywhere; bytes that are no UTF-8 become U+FFFD in them.
 ///
 /// Read back it is the same scene with those paths: all numbers bit for bit, and the angles of
-/// scenes that were read. Of other angles about one in eleven is what no number of degrees gives;
+/// scenes that were read. About one in eleven of other angles equals no number of degrees;
 /// it comes back as a neighbouring double, and stays that when it is written again. A lone end of a
 /// range in `needs` comes back with the scene's own value at the other.
 std::string formatScene(const Scene& scene);

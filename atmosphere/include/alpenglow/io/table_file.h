@@ -69,21 +69,22 @@ bool parseTransmittanceSize(const std::string& text, TableSizes* sizes);
 bool parseIrradianceSize(const std::string& text, TableSizes* sizes);
 bool parseScatteringSize(const std::string& text, TableSizes* sizes);
 
-/// How the command line and files call the solvers, in the order of their values.
+/// Names of the solvers on the command line and in files, in the order of their values.
 const std::vector<std::string>& solverNames();
 std::string solverName(Solver solver);
 std::optional<Solver> findSolver(const std::string& name);
 
-/// How they call the levels of quality, from Quality::Draft on; Quality::Default has no name.
+/// Names of the levels of quality, from Quality::Draft on; Quality::Default has no name.
 const std::vector<std::string>& qualityNames();
 std::string qualityName(Quality quality);
 std::optional<Quality> findQuality(const std::string& name);
 
 /// Sizes of Solver::Moments as the command line and files spell them: "nodesR=16,degree=12", those
-/// that are not 0. Zenith angles are called zenithsSky, zenithsLimb and zenithsGround there.
+/// that are not 0. zenithsSky, zenithsLimb and zenithsGround are called ringsSky, ringsLimb and
+/// ringsGround.
 std::string momentSettingsText(const TableSizes& settings);
-/// Takes the fields that the string names, and leaves the others; each may stand there once, from 2
-/// to kMaxTableSide (degree: to 47). Otherwise a sentence, with `settings` unchanged.
+/// Takes the fields that the string names, and leaves the others. Each may occur once, from 2 to
+/// kMaxTableSide (degree: to 47). Otherwise a sentence, with `settings` unchanged.
 Done parseMomentSettings(const std::string& text, TableSizes* settings);
 
 /// Writes the file whole or not at all, and reads it back before it takes its place.

@@ -14,7 +14,7 @@ inline namespace v1_0 {
 struct ReferenceAnswer {
   ProbeAnswer value;
   ProbeAnswer standardError;  ///< hitsGround is unused.
-  uint64_t pathCount = 0;     ///< Paths traced, of the part (air or ground) that took more.
+  uint64_t pathCount = 0;     ///< Paths traced, of the part (atmosphere or ground) that took more.
 };
 
 /// Order 1 (single scattering, and the ground under direct sun), with a relative error of about

@@ -22,12 +22,12 @@ struct DeviceOptions {
   std::string select;  ///< Empty: the first suitable; digits: the index; else part of its name.
   bool validation = false;      ///< VK_LAYER_KHRONOS_validation with synchronisation checks.
   RequirementsFn requirements;  ///< Null: Vulkan 1.3 with synchronization2 and dynamicRendering.
-  /// Enabled besides, all of them; the device is one that has them.
+  /// Enabled as well; only a device that has all of them is chosen.
   std::vector<std::string> instanceExtensions, deviceExtensions;
-  /// Whether a queue family that has graphics and compute will do; null: any.
+  /// Whether to accept a queue family that has graphics and compute; null: any.
   std::function<bool(VkInstance, VkPhysicalDevice, uint32_t family)> queueFamily;
   /// Called with each validation message too, from whichever thread causes it, until the device's
-  /// destructor has returned: how objects that outlive the device are heard of. May be null.
+  /// destructor has returned: so it hears of objects that outlive the device. May be null.
   std::function<void(std::string_view)> onValidationMessage;
 };
 
@@ -113,7 +113,7 @@ class Device {
   /// false (nothing is submitted, `error` is left to it) or Vulkan fails.
   bool run(const std::function<bool(VkCommandBuffer)>& record, std::string* error,
            Timing* timing = nullptr);
-  /// Until the device has nothing to do.
+  /// Waits until the device is idle.
   void waitIdle() const;
   /// The frame that `run` records now, or would record next; the one below it has completed. For
   /// advanceFrame.

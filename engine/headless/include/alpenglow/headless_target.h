@@ -1,4 +1,4 @@
-// What a program without a window draws into, and the way back to the CPU. Part of
+// A render target for programs without a window, with readback to the CPU. Part of
 // Alpenglow::headless.
 #pragma once
 
@@ -37,7 +37,7 @@ class Target {
   VkRenderPass renderPass() const { return renderPass_; }  ///< Null with dynamic rendering.
   VkExtent2D extent() const { return desc_.extent; }
 
-  /// Makes the images ready to be drawn into, whatever was done with them; what they held is lost.
+  /// Makes the images ready for drawing, whatever their state; their contents are lost.
   void prepare(VkCommandBuffer commands);
   /// A rendering scope over `area`. With a render pass each clears, and its area is the extent.
   void begin(VkCommandBuffer commands, const VkRect2D& area, VkAttachmentLoadOp load,
