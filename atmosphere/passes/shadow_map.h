@@ -24,6 +24,8 @@ class ShadowMap {
   bool drawnFor(const double sun[3]) const;
   /// Leaves the image readable by vertex and fragment shaders.
   Status record(VkCommandBuffer commands, const double sun[3], const CasterSet& casters);
+  /// Makes the image readable where it was never drawn: what it holds is undefined.
+  Status recordReadable(VkCommandBuffer commands);
   /// What was recorded in that frame never executes.
   void abandon(uint64_t frame) {
     if (frame_ >= frame) recorded_ = false;

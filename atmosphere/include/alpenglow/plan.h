@@ -24,8 +24,9 @@ struct PlanRequest {
   double sunElevationFrom = 0.0, sunElevationTo = 0.0;
   bool sunFixed = false;  ///< With both of the above equal, 0 too: this elevation and no other.
   bool casters = false;   ///< Of light shafts.
-  VisibilityFlags visible = 0;  ///< 0: anything.
-  double sunDiscRadius = 0.0;   ///< The greatest that is drawn; 0: none.
+  double casterAltitude_m = 0.0;  ///< The greatest of their points; 0: any.
+  VisibilityFlags visible = 0;    ///< 0: anything.
+  double sunDiscRadius = 0.0;     ///< The greatest that is drawn; 0: none.
   /// Factor from radiance (for Parameters::solarIrradiance) to a picture whose white is 1: the
   /// greatest that is used. Light of less than half an 8-bit step under it can't be seen. 0: any.
   double exposure = 0.0;
