@@ -76,6 +76,7 @@ struct CasterSet {
   DrawCastersFn draw = nullptr;
   void* user = nullptr;
   uint64_t version = 0;
+  bool lit = true;  ///< Sunlight reaches them: passes::sunReaches.
   bool* outsideReported =
       nullptr;  ///< The view's flag: a caster far outside `bounds` was reported.
 };

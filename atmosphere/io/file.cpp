@@ -5,7 +5,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 #include <array>
+#include <atomic>
 #include <cerrno>
+#include <climits>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -157,7 +159,41 @@ Done checkFolder(const std::string& path, const std::string& target) {
   return {};
 }
 
+// Paths of pending files, for a signal handler: no allocation, no lock. A slot's text is written
+// while it is taken and not ready, and read only while it is ready.
+struct PendingSlot {
+  enum State : int { Free, Taken, Ready };
+  std::atomic<int> state = Free;
+  char path[PATH_MAX] = {};
+};
+PendingSlot pendingSlots[16];
+static_assert(std::atomic<int>::is_always_lock_free, "Handlers of signals read it.");
+
+void rememberPending(const std::string& path) {
+  if (path.size() >= PATH_MAX) return;
+  for (PendingSlot& slot : pendingSlots) {
+    int state = PendingSlot::Free;
+    if (!slot.state.compare_exchange_strong(state, PendingSlot::Taken)) continue;
+    std::memcpy(slot.path, path.c_str(), path.size() + 1);
+    slot.state = PendingSlot::Ready;
+    return;
+  }
+}
+
+void forgetPending(const std::string& path) {
+  for (PendingSlot& slot : pendingSlots) {
+    if (slot.state != PendingSlot::Ready || path != slot.path) continue;
+    slot.state = PendingSlot::Free;
+    return;
+  }
+}
+
 }  // namespace
+
+void removePendingFiles() noexcept {
+  for (PendingSlot& slot : pendingSlots)
+    if (slot.state == PendingSlot::Ready) ::unlink(slot.path);
+}
 
 Result<std::string> readFile(const std::string& path, uint64_t limit) {
   using Text = Result<std::string>;
@@ -244,6 +280,7 @@ Result<PendingFile> PendingFile::create(const std::string& target) {
   const Descriptor file(openBeside(pending.target_, &name));
   if (file.get() < 0) return failed(cannot("write", target, errno));
   pending.path_ = name;
+  rememberPending(name);
   ::fchmod(file.get(), mode);
   return pending;
 }
@@ -254,7 +291,9 @@ PendingFile::PendingFile(PendingFile&& other) noexcept
       shown_(std::move(other.shown_)) {}
 
 PendingFile::~PendingFile() {
-  if (!path_.empty()) ::unlink(path_.c_str());
+  if (path_.empty()) return;
+  ::unlink(path_.c_str());
+  forgetPending(path_);
 }
 
 Done PendingFile::commit() {
@@ -263,6 +302,7 @@ Done PendingFile::commit() {
       ::rename(path_.c_str(), target_.c_str()) != 0) {
     return cannot("write", shown_, errno);
   }
+  forgetPending(path_);
   path_.clear();
   return {};
 }

@@ -57,10 +57,7 @@ std::string markNotFinite(const std::string& text) {
 }
 
 std::string show(const Json& value) {
-  if (value.is_string()) {
-    const std::string& text = value.get_ref<const std::string&>();
-    if (!text.empty() && text[0] == kNotFinite) return text.substr(1, 40);
-  }
+  if (value.is_string() && !isText(value)) return value.get<std::string>().substr(1, 40);
   if (value.is_object()) return "an object";
   std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
   if (text.size() > 60) text = text.substr(0, 57) + "...";
@@ -148,9 +145,12 @@ std::string showNumber(double value) {
 Result<Json> parseJson(const std::string& text, const std::string& name) {
   std::vector<std::set<std::string>> objects;
   std::string doubled;
-  bool tooDeep = false;
+  bool tooDeep = false, holdsNul = false;
   const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
     tooDeep = tooDeep || depth > kMaxDepth;
+    const bool isText = event == Json::parse_event_t::key || event == Json::parse_event_t::value;
+    holdsNul = holdsNul || (isText && parsed.is_string() &&
+                            parsed.get_ref<const std::string&>().find('\0') != std::string::npos);
     if (event == Json::parse_event_t::object_start) {
       objects.emplace_back();
     } else if (event == Json::parse_event_t::object_end) {
@@ -161,11 +161,21 @@ Result<Json> parseJson(const std::string& text, const std::string& name) {
     }
     return !tooDeep;
   };
+  // The parser takes it for the end of the file.
+  if (const size_t nul = text.find('\0'); nul != std::string::npos) {
+    return Result<Json>::failure("The file '" + name + "' is not valid JSON: byte " +
+                                 std::to_string(nul + 1) + " is a NUL character.");
+  }
   try {
     Json value = Json::parse(markNotFinite(text), watch);
     if (tooDeep) {
       return Result<Json>::failure("The file '" + name + "' nests deeper than " +
                                    std::to_string(kMaxDepth) + " levels.");
+    }
+    if (holdsNul) {
+      return Result<Json>::failure("The file '" + name +
+                                   "' has a string with a NUL character (\\u0000), but names and "
+                                   "paths have none.");
     }
     if (!doubled.empty()) {
       return Result<Json>::failure("In '" + name + "', field '" + doubled +
@@ -183,6 +193,12 @@ Result<Json> readJson(const std::string& path) {
   const Result<std::string> text = readFile(path, kMaxJsonBytes);
   if (!text) return Result<Json>::failure(text.error);
   return parseJson(*text, path);
+}
+
+bool isText(const Json& value) {
+  if (!value.is_string()) return false;
+  const std::string& text = value.get_ref<const std::string&>();
+  return text.empty() || text[0] != kNotFinite;
 }
 
 std::string formatJson(const OrderedJson& value) {
@@ -279,7 +295,7 @@ uint32_t ObjectReader::integer(const char* key, uint32_t least, uint32_t most) {
 
 std::string ObjectReader::string(const char* key) {
   const Json& value = required(key);
-  if (value.is_string() && show(value)[0] == '"') return value.get<std::string>();
+  if (isText(value)) return value.get<std::string>();
   if (has(key)) wrong(key, "a string");
   return {};
 }

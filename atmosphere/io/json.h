@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
 
 /// Most bytes of a JSON file that is read.
-inline constexpr uint64_t kMaxJsonBytes = uint64_t{64} << 20;
+inline constexpr uint64_t kMaxJsonBytes = uint64_t{16} << 20;
 
 inline constexpr double kPi = 3.14159265358979323846;
 inline double radians(double degrees) { return degrees * (kPi / 180.0); }
@@ -30,6 +30,9 @@ double shortestDegrees(double angle);
 /// become values that ObjectReader refuses with their field's name.
 Result<Json> parseJson(const std::string& text, const std::string& name);
 Result<Json> readJson(const std::string& path);
+
+/// Whether a value is a string of the file: not a number that JSON can't hold.
+bool isText(const Json& value);
 
 /// Text for people: lines of at most about 100 columns, numbers with all their digits.
 std::string formatJson(const OrderedJson& value);

@@ -44,7 +44,7 @@ NamedQuery queryFromJson(JsonErrors* errors, const Json& value, size_t index,
                          std::set<std::string>* ids) {
   NamedQuery named;
   const std::string place = " of query number " + std::to_string(index + 1);
-  if (!value.is_object() || !value.contains("id") || !value["id"].is_string()) {
+  if (!value.is_object() || !value.contains("id") || !isText(value["id"])) {
     ObjectReader reader(errors, value, "", place,
                         {"id", "kind", "altitude_m", "view_zenith_deg", "sun_zenith_deg",
                          "azimuth_deg", "distance_m"});

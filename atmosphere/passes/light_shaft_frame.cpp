@@ -109,8 +109,28 @@ void clipFromMap(const ShadowMapPlace& map, double matrix[16]) {
   matrix[15] = 1.0;
 }
 
+// A point sees the sun before the terminator's plane, or beside the planet's shadow, a cylinder
+// (with a soft sun a cone) about the axis. Both are the most at a corner: the distance from the
+// axis is convex.
+bool sunReaches(const Parameters& parameters, const PlanetBox& bounds, const double sun[3]) {
+  const double narrowing = std::tan(parameters.sunAngularRadius);
+  for (int corner = 0; corner < 8; ++corner) {
+    double p[3], across[3];
+    for (int i = 0; i < 3; ++i) {
+      p[i] = bounds.center_m[i];
+      for (int axis = 0; axis < 3; ++axis)
+        p[i] += ((corner >> axis & 1) != 0 ? 1.0 : -1.0) * bounds.halfAxes_m[axis][i];
+    }
+    const double along = dot(p, sun);
+    cross(p, sun, across);
+    const double shadow = parameters.bottomRadius_m + along * narrowing;
+    if (along >= 0.0 || std::sqrt(dot(across, across)) > shadow) return true;
+  }
+  return false;
+}
+
 LightShaftFrame makeLightShaftFrame(const Parameters& parameters, const LightShaftSettings& desc,
-                                    const ShadowMapPlace& map, const FrameState& draw) {
+                                    const ShadowMapPlace& map, const FrameState& draw, bool lit) {
   const EyeCamera& camera = draw.camera;
   const double r = passes::cameraRadius(camera);
   const double rg = parameters.bottomRadius_m, rt = parameters.topRadius_m;
@@ -151,7 +171,7 @@ LightShaftFrame makeLightShaftFrame(const Parameters& parameters, const LightSha
   store(frame.columnStep, map.v, 1.0, 0.0);
   frame.pixels[0] = 2.0f / static_cast<float>(draw.viewport.extent.width);
   frame.pixels[1] = 2.0f / static_cast<float>(draw.viewport.extent.height);
-  frame.pixels[2] = static_cast<float>(methodIndex(desc.method));
+  frame.pixels[2] = lit ? static_cast<float>(methodIndex(desc.method)) : kNoShadow;
   frame.pixels[3] = desc.projection == Projection::Orthographic ? 1.0f : 0.0f;
 
   const passes::AerialPerspectiveLookup lookup = passes::aerialPerspectiveLookup(parameters, draw);

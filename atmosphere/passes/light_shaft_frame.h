@@ -14,6 +14,10 @@ struct ShadowMapPlace {
 /// The smallest box; `texels` on a side, of which two at each edge are left free.
 ShadowMapPlace placeShadowMap(const PlanetBox& bounds, const double sun[3], uint32_t texels);
 
+/// Whether direct sunlight may reach a point of the box. Where it doesn't, the planet's own shadow
+/// covers the casters, and they cast none.
+bool sunReaches(const Parameters& parameters, const PlanetBox& bounds, const double sun[3]);
+
 /// std140 of AlpenglowLightShaftFrame in shaders/glsl/alpenglow/light_shafts.glsl, which
 /// explains each member.
 struct LightShaftFrame {
@@ -42,6 +46,9 @@ constexpr uint32_t methodIndex(LightShaftMethod method) {
   return static_cast<uint32_t>(method) - 1;
 }
 
+/// In their place for a frame whose casters no sunlight reaches.
+inline constexpr float kNoShadow = -1.0f;
+
 /// Cells on a side of a block: alpenglow/light_shafts.glsl.
 inline constexpr uint32_t kLightShaftBlock = 16;
 /// Texels from vertex to vertex of the light-volume mesh.
@@ -54,9 +61,9 @@ constexpr uint32_t blocksAcross(const LightShaftSettings& desc) {
   return ((desc.shadowMapSize - 2 + step) / step - 1) / kLightShaftBlock + 1;
 }
 
-/// Everything is computed in double and rounded once.
+/// Everything is computed in double and rounded once. `lit`: sunReaches the casters.
 LightShaftFrame makeLightShaftFrame(const Parameters& parameters, const LightShaftSettings& desc,
-                                    const ShadowMapPlace& map, const FrameState& draw);
+                                    const ShadowMapPlace& map, const FrameState& draw, bool lit);
 
 /// Three rows that take local positions of a caster (placeCaster) to metres from `eye`.
 void rowsFromEye(const double eye[3], const double origin[3], const float rotation[9],

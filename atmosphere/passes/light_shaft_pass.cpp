@@ -244,12 +244,22 @@ Status LightShaftPass::recordShadowMap(VkCommandBuffer commands, const double su
 Status LightShaftPass::record(VkCommandBuffer commands, const Tables& tables,
                               const FrameState& draw, const HostImage& sceneDepth,
                               const CasterSet& casters, VkDescriptorSet lut) {
-  Status status =
-      updateFrame(commands, makeLightShaftFrame(tables.parameters(), desc_, map_.place(), draw));
+  Status status = updateFrame(
+      commands, makeLightShaftFrame(tables.parameters(), desc_, map_.place(), draw, casters.lit));
+  if (status == Status::Ok && !casters.lit) return recordNone(commands);
   if (status == Status::Ok && exact()) status = cullBlocks(commands);
   if (status == Status::Ok && targetCount_ > 0)
     status = drawShadows(commands, tables, draw, sceneDepth, casters, lut);
   return status;
+}
+
+// No shader reads the images then, but they must be in the layout that the set states.
+Status LightShaftPass::recordNone(VkCommandBuffer commands) {
+  engine::Barriers barriers;
+  for (uint32_t i = 0; i < targetCount_; ++i)
+    barriers.discard(targets_[i], engine::kFragmentSampled);
+  const Status status = barriers.record(device_, commands);
+  return status == Status::Ok && mapped() ? map_.recordReadable(commands) : status;
 }
 
 Status LightShaftPass::updateFrame(VkCommandBuffer commands, const LightShaftFrame& frame) {

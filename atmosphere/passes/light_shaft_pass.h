@@ -30,7 +30,8 @@ class LightShaftPass {
   /// Before anything of a frame is recorded: makes what depends on the extent of the scene's depth.
   Status resize(VkExtent2D scene);
   Status recordShadowMap(VkCommandBuffer commands, const double sun[3], const CasterSet& casters);
-  /// The frame has been checked. `lut`: the set of its aerial-perspective LUT, or null.
+  /// The frame has been checked. `lut`: the set of its aerial-perspective LUT, or null. Unless
+  /// casters.lit nothing is drawn, and the images hold nothing.
   Status record(VkCommandBuffer commands, const Tables& tables, const FrameState& draw,
                 const HostImage& sceneDepth, const CasterSet& casters, VkDescriptorSet lut);
   void abandon(uint64_t frame) { map_.abandon(frame); }
@@ -53,6 +54,8 @@ class LightShaftPass {
     return desc_.method == LightShaftMethod::ShadowVolume ? 2 : exact() ? 1 : 0;
   }
   VkFormat targetFormat() const;
+  /// Only what the set of a frame without shadows needs.
+  Status recordNone(VkCommandBuffer commands);
   Status makeBuffers();
   Status makeTargets();
   void describeBindings(VkDescriptorSetLayoutBinding* bindings) const;

@@ -96,6 +96,13 @@ bool ShadowMap::current(const double sun[3], const CasterSet& casters) const {
   return still;
 }
 
+Status ShadowMap::recordReadable(VkCommandBuffer commands) {
+  if (recorded_) return Status::Ok;
+  engine::Barriers barriers;
+  barriers.discard(depth_, kRead);
+  return barriers.record(device_, commands);
+}
+
 Status ShadowMap::record(VkCommandBuffer commands, const double sun[3], const CasterSet& casters) {
   recorded_ = false;
   place_ = placeShadowMap(casters.bounds, sun, size_);

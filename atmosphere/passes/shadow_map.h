@@ -22,6 +22,8 @@ class ShadowMap {
   bool drawnFor(const double sun[3]) const;
   /// Leaves the image readable by vertex and fragment shaders.
   Status record(VkCommandBuffer commands, const double sun[3], const CasterSet& casters);
+  /// Makes the image readable where it was never drawn: its contents are undefined.
+  Status recordReadable(VkCommandBuffer commands);
   /// Commands of that frame never execute.
   void abandon(uint64_t frame) {
     if (frame_ >= frame) recorded_ = false;

@@ -32,7 +32,11 @@ bool coversScene(const Plan& plan, const PlanRequest& request) {
     if (plan::sees(request, what) && !plan::sees(plan.request, what)) return false;
   }
   const bool disc = request.sunDiscRadius > 0.0 && plan.request.sunDiscRadius == 0.0;
-  return !disc && (!request.casters || plan.request.casters);
+  const double top = plan.request.casterAltitude_m;
+  const bool casters =
+      plan.request.casters &&
+      (top == 0.0 || (request.casterAltitude_m > 0.0 && request.casterAltitude_m <= top));
+  return !disc && (!request.casters || casters);
 }
 
 bool coversWishes(const Plan& plan, const PlanRequest& request) {

@@ -37,6 +37,7 @@ Status checkRanges(const PlanRequest& n, parameters::Sentence* why) {
 Status checkRequest(const PlanRequest& n, parameters::Sentence* why) {
   const Field fields[] = {{"altitudeFrom_m", n.altitudeFrom_m, 0.0, 1e12},
                           {"altitudeTo_m", n.altitudeTo_m, 0.0, 1e12},
+                          {"casterAltitude_m", n.casterAltitude_m, 0.0, 1e12},
                           {"sunElevationFrom", n.sunElevationFrom, -kRightAngle, kRightAngle},
                           {"sunElevationTo", n.sunElevationTo, -kRightAngle, kRightAngle},
                           {"sunDiscRadius", n.sunDiscRadius, 0.0, kRightAngle},

@@ -219,6 +219,8 @@ Status View::takeFrame(const FrameDesc& desc) {
   if (status == Status::Ok && desc_.hasLightShafts) {
     frame_.casters = view::casterSet(desc, state);
     frame_.casters.outsideReported = warnings_.outsideCasters();
+    frame_.casters.lit = desc.casters.draw != nullptr &&
+                         passes::sunReaches(parameters, frame_.casters.bounds, state.sun.direction);
     status = passes::checkCasters(device_, frame_.casters);
     if (status == Status::Ok) status = passes::checkViewport(device_, scene, state);
     if (status == Status::Ok) status = lightShafts_.resize(scene);
@@ -275,7 +277,7 @@ RecordFlags View::needed() const {
   if (sky || aerial) flags |= kRecordLuts;
   if (desc_.picture.aerial) flags |= kRecordAerialPerspective;
   if (!desc_.hasLightShafts) return flags;
-  if (lightShafts_.mapped() &&
+  if (lightShafts_.mapped() && frame_.casters.lit &&
       !lightShafts_.map().current(frame_.state.sun.direction, frame_.casters))
     flags |= kRecordShadowMap;
   return flags | kRecordLightShafts;

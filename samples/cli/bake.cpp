@@ -19,7 +19,7 @@ void runBake(const BakeArguments& arguments) {
   file.desc =
       describeTables(arguments.tables, source.parameters, source.scene ? &*source.scene : nullptr);
   check(io::checkReplaceable(arguments.run.output));  // A table file is sealed after writing.
-  checkOutputs(arguments.run);
+  checkOutputs(arguments.run, {arguments.atmosphere});
   Session session(arguments.run.device, kCapabilityBake);
   std::vector<io::TablePart> orders;
   {

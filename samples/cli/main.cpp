@@ -1,5 +1,7 @@
 // alpenglow: bakes atmospheres, renders scenes and answers point queries. See docs/.
+#include <alpenglow/io/file.h>
 #include <alpenglow/version.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -159,10 +161,29 @@ void say(std::string sentence) {
   std::fprintf(stderr, "%s\n", sentence.c_str());
 }
 
+// Half-written files go; then the signal does what it does by default, so that the shell sees it.
+void cleanUpOnSignals() {
+  struct sigaction action = {};
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  action.sa_handler = [](int signal) {
+    io::removePendingFiles();
+    ::raise(signal);
+  };
+  sigemptyset(&action.sa_mask);
+  ::signal(SIGXFSZ, SIG_IGN);  // A file that grows too long is an error of its write.
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXCPU}) {
+    struct sigaction before = {};
+    // What the caller ignores stays ignored, as nohup wants it.
+    if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)
+      sigaction(signal, &action, nullptr);
+  }
+}
+
 }  // namespace
 }  // namespace alpenglow::cli
 
 int main(int argc, char** argv) {
+  alpenglow::cli::cleanUpOnSignals();
   try {
     return alpenglow::cli::parseAndRun(argc, argv);
   } catch (const alpenglow::cli::Failure& failure) {

@@ -36,7 +36,7 @@ void runOnDevice(const ProbeArguments& arguments, const io::AtmosphereSource& so
                  const std::vector<io::NamedQuery>& queries) {
   TableRequest request =
       requestTables(arguments.tables, source.parameters, source.scene ? &*source.scene : nullptr);
-  checkOutputs(arguments.run);
+  checkOutputs(arguments.run, {arguments.atmosphere, arguments.queries, arguments.tables.tables});
   Session session(arguments.run.device, kCapabilityBake);
   const ReadyTables ready = obtainTables(&session, source.parameters, std::move(request));
   writeText(arguments.run.output, probeTables(&session, ready.tables.get(), queries));
@@ -66,7 +66,7 @@ void runReference(const ProbeArguments& arguments, const io::AtmosphereSource& s
   checkReferenceArguments(arguments.tables);
   const uint32_t orders =
       referenceOrders(arguments.tables, source.scene ? &*source.scene : nullptr);
-  checkOutputs(arguments.run);
+  checkOutputs(arguments.run, {arguments.atmosphere, arguments.queries, arguments.tables.tables});
   const std::clock_t start = std::clock();
   const std::vector<ReferenceAnswer> answers = answerByReference(
       source.parameters, queries, orders, arguments.samples ? parseSamples(*arguments.samples) : 0);

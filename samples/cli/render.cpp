@@ -69,7 +69,8 @@ void runRender(const RenderArguments& arguments) {
   if (!arguments.flythrough.empty()) return runFlythrough(arguments);
   const std::string& output = arguments.run.output;
   checkEnding(output, {".exr", ".png"});
-  io::Scene scene = take(io::readScene(samples::findSample("scenes", arguments.scene)));
+  const std::string file = samples::findSample("scenes", arguments.scene);
+  io::Scene scene = take(io::readScene(file));
   samples::checkScenery(scene);
   if (!arguments.size.empty()) parsePictureSize(arguments.size, &scene.width, &scene.height);
   std::optional<io::AlbedoMap> albedo;
@@ -82,7 +83,9 @@ void runRender(const RenderArguments& arguments) {
   const bool disc = plan.choices[static_cast<uint32_t>(Effect::SunDisc)].on;
   if (!disc) scene.sun.discRadius = 0.0;
   const SceneryFiles files = readScenery(scene);
-  checkOutputs(arguments.run);
+  std::vector<std::string> inputs = inputsOf(scene);
+  inputs.insert(inputs.end(), {file, arguments.tables.tables});
+  checkOutputs(arguments.run, inputs);
 
   // Loaded tables need nothing of a bake.
   const CapabilityFlags bake = request.file ? CapabilityFlags{0} : kCapabilityBake;

@@ -1,5 +1,7 @@
 #include "scene_plan.h"
 
+#include <alpenglow/io/height_field.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -36,6 +38,15 @@ void describeSun(const io::Scene& scene, PlanRequest* request) {
   request->sunElevationFrom = std::clamp(from - around, -kRightAngle, kRightAngle);
   request->sunElevationTo = std::clamp(to + around, -kRightAngle, kRightAngle);
   request->sunFixed = request->sunElevationFrom == request->sunElevationTo;
+}
+
+// Of a terrain; 0, which is any, where its file can't be read: whoever draws it reports that.
+double greatestAltitude(const io::SceneTerrain& terrain) {
+  const io::Result<io::HeightMap> map =
+      io::readHeightMap(terrain.heightMap, {terrain.metersPerUnit, 0.0});
+  if (!map || map->heights_m.empty()) return 0.0;
+  const double most = *std::max_element(map->heights_m.begin(), map->heights_m.end());
+  return std::max((most - terrain.base_m) * terrain.heightScale, 1.0);
 }
 
 // Terrain and balloons are drawn by shaders that read every table.
@@ -99,6 +110,8 @@ PlanRequest requestOf(const io::Scene& scene) {
   request.sunDiscRadius = scene.sun.discRadius;
   request.exposure = scene.exposure.value_or(0.0);
   request.casters = scene.terrain.has_value() && scene.shafts != io::SceneLightShafts::Off;
+  if (request.casters && request.sunElevationTo < 0.0)
+    request.casterAltitude_m = greatestAltitude(*scene.terrain);
   std::copy_n(scene.effects, kEffectCount, request.effects);
   if (scene.requirements) {
     request.exposure = scene.requirements->exposure.value_or(0.0);

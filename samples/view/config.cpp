@@ -93,7 +93,13 @@ Config readConfig(const std::string& path) {
   const std::string text = samples::take(io::readFile(path, 1 << 20));
   Json json;
   try {
-    json = Json::parse(text, nullptr, true, true);  // With comments.
+    const auto watch = [&](int depth, Json::parse_event_t, Json&) {
+      constexpr int kMaxDepth = 8;
+      if (depth <= kMaxDepth) return true;
+      throw Failure("The config file '" + path + "' nests deeper than " +
+                    std::to_string(kMaxDepth) + " levels.");
+    };
+    json = Json::parse(text, watch, true, true);  // With comments.
   } catch (const Json::exception& error) {
     // "[json.exception.parse_error.101] parse error at line 1, column 2: text".
     const std::string what = error.what();

@@ -4,7 +4,10 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
+#include <iterator>
 #include <thread>
+#include <vector>
 
 #include "temporary_folder.h"
 
@@ -145,6 +148,32 @@ TEST(WholeFile, APendingFileThatIsDroppedLeavesNothing) {
   }
   EXPECT_EQ(folder.names().size(), 1u);
   EXPECT_EQ(contentsOf(folder / "a"), "old");
+}
+
+// As a handler of SIGINT does, with more files than are known.
+TEST(WholeFile, PendingFilesAreRemovedAtOnce) {
+  const TemporaryFolder folder;
+  const auto files = [&] {
+    const std::filesystem::directory_iterator all(folder / "");
+    return std::distance(begin(all), end(all));
+  };
+  {
+    std::vector<PendingFile> pending;
+    for (int i = 0; i < 20; ++i) {
+      Result<PendingFile> made = PendingFile::create(folder / ("f" + std::to_string(i)));
+      ASSERT_TRUE(made) << made.error;
+      pending.push_back(std::move(*made));
+    }
+    EXPECT_EQ(files(), 20);
+    removePendingFiles();
+    EXPECT_EQ(files(), 4);
+  }
+  EXPECT_EQ(files(), 0);
+  Result<PendingFile> kept = PendingFile::create(folder / "kept");
+  ASSERT_TRUE(kept) << kept.error;
+  ASSERT_TRUE(kept->commit());
+  removePendingFiles();
+  EXPECT_EQ(files(), 1);
 }
 
 TEST(ReadFile, StopsAtItsLimit) {

@@ -103,6 +103,10 @@ TEST(ProbeFile, IdsAreStringsAndDiffer) {
   EXPECT_NE(errorOf(rayText("\"a\"", kGoodRay) + "," + rayText("7", kGoodRay))
                 .find("'id' of query number 2 is 7"),
             std::string::npos);
+  for (const std::string id : {"NaN", "Infinity", "1e999"}) {
+    const std::string said = errorOf(rayText(id, kGoodRay));
+    EXPECT_NE(said.find("'id' of query number 1 is " + id), std::string::npos) << said;
+  }
   EXPECT_NE(errorOf(rayText("\"a\"", kGoodRay) + "," + rayText("\"a\"", kGoodRay)).find("'a'"),
             std::string::npos);
   errorOf("3");

@@ -1,6 +1,8 @@
 #include <alpenglow/io/atmosphere_file.h>
 #include <alpenglow/io/scene_file.h>
 
+#include <cstring>
+
 #include "temporary_folder.h"
 
 namespace alpenglow::io {
@@ -120,6 +122,20 @@ TEST(SceneFile, RefusesWrongValuesByName) {
   }
   expectMentions(errorOf(R"({"atmosphere":"earth","camera":{},"sun":{"elevation_deg":90.5}})"),
                  {"sun.elevation_deg", "90.5", "-90 to 90"});
+}
+
+// A parser that ends at the NUL would take "earth\\u0000x" for "earth".
+TEST(SceneFile, RefusesNulCharacters) {
+  const std::string good = R"({"atmosphere":"earth","camera":{},"sun":{"elevation_deg":1}})";
+  ASSERT_TRUE(parseScene(good, "s.json", "folder"));
+  const std::string nul(1, '\0');
+  for (const std::string& text : {good + nul + "garbage", nul + good, good + nul})
+    expectMentions(errorOf(text), {"NUL", "byte"});
+  for (const char* part : {"earth", "atmosphere", "elevation_deg"}) {
+    std::string text = good;
+    text.insert(text.find(part) + std::strlen(part), "\\u0000x");
+    expectMentions(errorOf(text), {"NUL", "\\u0000"});
+  }
 }
 
 TEST(SceneFile, FeaturesOfLaterVersionsAreRefusedWithWhatExists) {

@@ -54,6 +54,7 @@ TEST_F(ViewerArguments, WrongConfigFilesGetASentence) {
   refused(R"({"keys": {"jump": "W"}})", {"'keys.jump'", "forward"});
   refused(R"({"keys": {"forward": "Up", "back": "Up"}})", {"\"Up\"", "keys.back", "keys.forward"});
   refused(R"({"bake_ms": "x"})", {"bake_ms", "\"x\""});
+  refused(std::string(100000, '['), {"wrong.json", "deeper than 8 levels"});
 }
 
 TEST_F(ViewerArguments, SampleConfigHoldsTheDefaults) {

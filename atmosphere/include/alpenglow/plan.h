@@ -24,8 +24,9 @@ struct PlanRequest {
   double sunElevationFrom = 0.0, sunElevationTo = 0.0;
   bool sunFixed = false;  ///< With both of the above equal, 0 too: this elevation and no other.
   bool casters = false;   ///< The scene has casters of light shafts.
-  VisibilityFlags visible = 0;  ///< 0: anything.
-  double sunDiscRadius = 0.0;   ///< Greatest radius that is drawn; 0: none.
+  double casterAltitude_m = 0.0;  ///< Greatest altitude of their points; 0: any.
+  VisibilityFlags visible = 0;    ///< 0: anything.
+  double sunDiscRadius = 0.0;     ///< Greatest radius that is drawn; 0: none.
   /// Greatest factor from radiance (for Parameters::solarIrradiance) to a picture whose white is 1.
   /// Light that it leaves below half an 8-bit step is invisible. 0: any.
   double exposure = 0.0;

@@ -29,7 +29,8 @@ layout(set = ALPENGLOW_LIGHT_SHAFT_SET, binding = 0, std140) uniform AlpenglowLi
   vec4 cornerStep;     // the map's corner at depth 0, metres from the camera; w: texel along the rows
   vec4 rowStep;        // from texel to texel in a row: a unit vector; w: from row to row
   vec4 columnStep;     // from row to row: a unit vector
-  vec4 pixels;         // ndc of a pixel: 2 / size, xy; method; 1: orthographic
+  vec4 pixels;         // ndc of a pixel: 2 / size, xy; method, or -1: no sunlight reaches a caster, and the maps hold
+                       // nothing; 1: orthographic
   vec4 aerialSkyView;  // AerialView of the camera: SkyViewParams, extinction_
   vec4 aerialSun;      // horizontal unit vector towards the sun; startHeight
   vec4 aerialHeight;   // height; metres that the light-volume mesh lies behind what the sun meets
@@ -179,6 +180,7 @@ float alpenglowSunShare(vec3 position) {
 // The sunlit share of the surface in a pixel, at `position`, without the cosine of its slope. The point is lifted
 // off the surface by texels of the map, or it would lie in its own shadow.
 float alpenglowSunlit(vec4 fragCoord, vec3 position, vec3 normal) {
+  if (alpenglowLightShaft.pixels.z < 0.0) return 1.0;
   if (int(alpenglowLightShaft.pixels.z) == kShadowVolume)
     return texelFetch(alpenglowLightShaftSums, ivec2(fragCoord.xy), 0).x < -0.5 ? 0.0 : 1.0;
   float texel = max(alpenglowLightShaft.cornerStep.w, alpenglowLightShaft.rowStep.w);

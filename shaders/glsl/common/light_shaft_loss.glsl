@@ -6,6 +6,10 @@ layout(constant_id = 9) const int kLightShaftSteps = 32;
 // Share of multiple scattering that is lost where all single scattering is lost: docs/light-shafts.md.
 layout(constant_id = 10) const float kMultipleLoss = 0.7;
 
+// Multiple scattering is lost with the single scattering of the same ray only where single scattering is at least
+// this share of it. At dusk single scattering is nearly zero, and the light of other parts of the sky remains.
+const float kRelatedShare = 0.1;
+
 // Loss of single scattering, from the sum over the crossings of the ray with the light-volume mesh.
 Spectrum lightVolumeLoss(vec2 fragCoord, Spectrum whole) {
   vec4 sums = texelFetch(alpenglowLightShaftSums, ivec2(fragCoord), 0);
@@ -56,10 +60,12 @@ Spectrum shadowVolumeLoss(vec2 fragCoord, AerialRay aerial, Spectrum whole, floa
 // on a surface.
 Spectrum lightShaftLoss(vec2 fragCoord, AerialRay aerial, vec3 view, float start, float end, AerialLight light,
                         bool ground) {
+  if (alpenglowLightShaft.pixels.z < 0.0) return SPECTRUM(0.0);
   if (kLightShaftMethod == kShadowVolume)
     return shadowVolumeLoss(fragCoord, aerial, light.single + light.multiple, end, start, ground);
   Spectrum single = kLightShaftMethod == kLightVolume ? lightVolumeLoss(fragCoord, light.single)
                                                       : rayMarchLoss(fragCoord, aerial, view, end);
-  Spectrum share = min(single / max(light.single, SPECTRUM(1e-30)), SPECTRUM(1.0));
+  Spectrum least = max(kRelatedShare * light.multiple, SPECTRUM(1e-30));
+  Spectrum share = min(single / max(light.single, least), SPECTRUM(1.0));
   return single + kMultipleLoss * share * light.multiple;
 }

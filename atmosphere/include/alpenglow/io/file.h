@@ -46,4 +46,9 @@ class PendingFile {
   std::string shown_;  // The target as the caller spelt it, for sentences.
 };
 
+/// Removes what the PendingFiles that are alive have written so far. Async-signal-safe: for a
+/// program's handler of SIGINT and the like, which then ends it. At most 16 files at once are
+/// known.
+void removePendingFiles() noexcept;
+
 }  // namespace alpenglow::io
