@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
   if (argc != 4) fail("Usage: check_picture FILE.ppm WIDTH HEIGHT");
   const Picture picture = read(argv[1]);
   if (picture.width != std::atoi(argv[2]) || picture.height != std::atoi(argv[3]) ||
-      picture.rgb.size() != static_cast<size_t>(picture.width) * picture.height * 3) {
+      picture.rgb.size() != size_t(picture.width) * size_t(picture.height) * 3) {
     fail("The picture has " + std::to_string(picture.width) + "x" + std::to_string(picture.height) +
          " pixels and " + std::to_string(picture.rgb.size()) + " bytes, expected " + argv[2] + "x" +
          argv[3] + " and three bytes each.");
