@@ -8,6 +8,7 @@
 
 #include "engine/exceptions.h"
 #include "engine/structure.h"
+#include "engine/text.h"
 
 namespace alpenglow::engine {
 namespace {
@@ -21,7 +22,7 @@ Status refuse(const DeviceDesc& desc, Status status, const char* format, ...) {
   char message[kMessageSize];
   va_list arguments;
   va_start(arguments, format);
-  std::vsnprintf(message, sizeof(message), format, arguments);
+  formatText(message, sizeof(message), format, arguments);
   va_end(arguments);
   if (desc.diagnostic != nullptr) {
     desc.diagnostic(desc.user, {Severity::Error, status, VK_SUCCESS, message});
@@ -159,7 +160,7 @@ Status Device::fail(Status status, VkResult result, const char* format, ...) con
   char message[kMessageSize];
   va_list arguments;
   va_start(arguments, format);
-  std::vsnprintf(message, sizeof(message), format, arguments);
+  formatText(message, sizeof(message), format, arguments);
   va_end(arguments);
   report(Severity::Error, status, result, message);
   return status;
@@ -180,7 +181,7 @@ void Device::notice(Severity severity, const char* format, ...) const {
   char message[kMessageSize];
   va_list arguments;
   va_start(arguments, format);
-  std::vsnprintf(message, sizeof(message), format, arguments);
+  formatText(message, sizeof(message), format, arguments);
   va_end(arguments);
   report(severity, Status::Ok, VK_SUCCESS, message);
 }

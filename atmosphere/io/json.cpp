@@ -3,9 +3,8 @@
 #include <alpenglow/io/file.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <set>
 
@@ -22,10 +21,15 @@ bool isWordCharacter(char c) {
          c == '-' || c == '.';
 }
 
+// By from_chars, since strtod follows the locale. It calls numbers that are too small out of range,
+// too: those have a negative exponent or begin with 0.
 bool isNotFinite(const std::string& word) {
   if (word == "NaN" || word == "Infinity" || word == "-Infinity") return true;
-  return word.find_first_not_of("0123456789+-.eE") == std::string::npos &&
-         std::isinf(std::strtod(word.c_str(), nullptr));
+  const bool small = word.find("e-") != std::string::npos || word.find("E-") != std::string::npos ||
+                     word.rfind("0", 0) == 0 || word.rfind("-0", 0) == 0;
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc::result_out_of_range && end == word.data() + word.size() && !small;
 }
 
 // nlohmann's parser stops at numbers that are not finite, without saying which field they are in.
@@ -124,8 +128,10 @@ double shortestDegrees(double angle) {
   const double exact = angle * (180.0 / kPi);
   for (int digits = 1; digits <= 17; ++digits) {
     char text[40];
-    std::snprintf(text, sizeof text, "%.*g", digits, exact);
-    const double rounded = std::strtod(text, nullptr);
+    const std::to_chars_result end =
+        std::to_chars(text, text + sizeof text, exact, std::chars_format::general, digits);
+    double rounded = 0.0;
+    std::from_chars(text, end.ptr, rounded);
     if (radians(rounded) == angle) return rounded;
   }
   for (const double neighbour :
