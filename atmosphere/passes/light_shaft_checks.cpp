@@ -17,21 +17,6 @@ LightShaftSettings completed(const LightShaftSettings& desc) {
   return full;
 }
 
-namespace {
-
-Status checkScene(const engine::Device& device, const LightShaftSettings& desc) {
-  if ((device.formatProperties(desc.sceneDepthFormat).optimalTilingFeatures &
-       VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT) == 0) {
-    return device.fail(Status::Unsupported, VK_SUCCESS,
-                       "ViewDesc::sceneDepthFormat is VkFormat %d, but light shafts need a depth "
-                       "format of this device.",
-                       static_cast<int>(desc.sceneDepthFormat));
-  }
-  return Status::Ok;
-}
-
-}  // namespace
-
 Status checkLightShaftSettings(const engine::Device& device, const LightShaftSettings& desc) {
   if (desc.method > LightShaftMethod::RayMarch) {
     return device.fail(Status::InvalidArgument, VK_SUCCESS,
@@ -88,7 +73,7 @@ Status checkLightShaftSettings(const engine::Device& device, const LightShaftSet
                        "multiples of 4, and three floats must fit into the stride, at most %u.",
                        desc.vertexStride, desc.vertexOffset, limits.maxVertexInputBindingStride);
   }
-  return checkScene(device, desc);
+  return Status::Ok;
 }
 
 Status checkViewport(const engine::Device& device, const VkExtent2D& whole,

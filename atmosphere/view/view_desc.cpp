@@ -157,6 +157,14 @@ Status checkAerial(const engine::Device& device, const ResolvedView& view, uint3
                        samples, static_cast<uint32_t>(desc.projection),
                        static_cast<int>(desc.sceneDepthFormat));
   }
+  constexpr VkFormatFeatureFlags kDepth =
+      VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT;
+  if ((device.formatProperties(desc.sceneDepthFormat).optimalTilingFeatures & kDepth) != kDepth) {
+    return device.fail(Status::Unsupported, VK_SUCCESS,
+                       "ViewDesc::sceneDepthFormat is VkFormat %d, but aerial perspective needs a "
+                       "depth format that this device can sample.",
+                       static_cast<int>(desc.sceneDepthFormat));
+  }
   if ((device.formatProperties(desc.colorFormat).optimalTilingFeatures &
        VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT) == 0) {
     return device.fail(Status::Unsupported, VK_SUCCESS,

@@ -294,6 +294,10 @@ TEST_F(LightShaftErrorsTest, AerialPerspectiveNeedsABlendableFormat) {
   desc.lightShafts = {};
   desc.colorFormat = VK_FORMAT_R32G32B32A32_UINT;
   expectViewRefused(baked, desc, Status::Unsupported, "colorFormat|VkFormat 107");
+  desc = goodDesc();
+  desc.lightShafts = {};
+  desc.sceneDepthFormat = VK_FORMAT_R32_SFLOAT;
+  expectViewRefused(baked, desc, Status::Unsupported, "sceneDepthFormat|VkFormat 100");
 }
 
 TEST_F(LightShaftErrorsTest, OnlyShadowVolumesNeedGeometryShaders) {
