@@ -20,9 +20,10 @@ ALPENGLOW_FN Spectrum depthTowardsTop(IN(Medium) m, IN(MomentShape) s, Real h, R
   return mu < REAL(0.0) ? max(REAL(2.0) * grazing - rise, grazing) : rise;
 }
 
-// Equation 9 without Lsun: sunlight that arrives at h.
+// Equation 9 without Lsun: sunlight that arrives at h. The light of a soft sun whose centre is below the horizon
+// comes from its upper edge, through the grazing ray's depth.
 ALPENGLOW_FN Spectrum sunlight(IN(Medium) m, IN(MomentShape) s, Real h, Real muS) {
-  return exp(-depthTowardsTop(m, s, h, muS)) * sunVisibility(m, h, muS);
+  return exp(-depthTowardsTop(m, s, h, max(muS, horizonMu(m, h)))) * sunVisibility(m, h, muS);
 }
 
 #ifdef ALPENGLOW_WITHOUT_MULTIPLE
