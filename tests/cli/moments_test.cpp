@@ -79,6 +79,33 @@ TEST_F(Moments, ASceneChoosesThem) {
   EXPECT_EQ(tables("t.exr").desc.quality, Quality::Draft);  // Options beat the scene.
 }
 
+// Its light passes the horizon, however deep its centre lies below it.
+TEST_F(Moments, SoftSunsBelowTheHorizonAreThoseOfTheReference) {
+  const std::string queries = folder_.write("soft.json", R"({"queries": [
+  {"id": "a", "altitude_m": 2, "view_zenith_deg": 90.2, "sun_zenith_deg": 90.1, "azimuth_deg": 0, "distance_m": null},
+  {"id": "b", "altitude_m": 2, "view_zenith_deg": 80, "sun_zenith_deg": 90.2, "azimuth_deg": 0, "distance_m": null},
+  {"id": "c", "altitude_m": 3000, "view_zenith_deg": 91, "sun_zenith_deg": 91.9, "azimuth_deg": 30, "distance_m": null}]})");
+  for (const double degrees : {0.2667, 4.3}) {
+    nlohmann::json earth = nlohmann::json::parse(runProgram({"presets", "earth"}).out);
+    earth["sun_angular_radius_deg"] = degrees;
+    const std::string atmosphere = folder_.write("soft_earth.json", earth.dump());
+    for (const char* method : {"tables", "reference"})
+      expectGood({"probe", atmosphere, "--queries", queries, "-o", folder_ / method, "--method",
+                  method, "--orders", "1"});
+    const nlohmann::json tables = jsonOf("tables")["answers"];
+    const nlohmann::json truth = jsonOf("reference")["answers"];
+    ASSERT_EQ(tables.size(), truth.size());
+    for (size_t i = 0; i < truth.size(); ++i) {
+      for (size_t c = 0; c < 3; ++c) {
+        const double expected = truth[i]["sky_radiance"][c], got = tables[i]["sky_radiance"][c];
+        EXPECT_GT(expected, 0.0);
+        EXPECT_LT(std::abs(got - expected), 0.015 * expected)
+            << truth[i]["id"] << ", channel " << c << ": " << got << ", right " << expected;
+      }
+    }
+  }
+}
+
 TEST_F(Moments, TheSameBakeGivesTheSameFile) {
   expectGood(joined({"bake", "earth", "-o", folder_ / "a.exr"}, smallMoments()));
   expectGood(joined({"bake", "earth", "-o", folder_ / "b.exr"}, smallMoments()));
