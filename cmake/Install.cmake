@@ -47,6 +47,7 @@ if(ALPENGLOW_BUILD_SAMPLES)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/samples/scenes" "${PROJECT_SOURCE_DIR}/samples/flythroughs"
                     "${PROJECT_SOURCE_DIR}/samples/data"
           DESTINATION "${share}")
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/samples/embed_minimal" DESTINATION "${share}/samples")
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/tests/data/truth" DESTINATION "${share}"
           FILES_MATCHING PATTERN "earth.*" PATTERN "evening.*")
 endif()

@@ -94,7 +94,9 @@ Status Device::create(const DeviceDesc& desc, Device** out) {
   if (!table.load(desc.getInstanceProcAddr, desc.instance, desc.device, desc.debugNames,
                   &missing)) {
     return refuse(desc, Status::Unsupported,
-                  "The device doesn't offer the function %s, which Vulkan 1.3 has.", missing);
+                  "The device doesn't offer the function %s, which Vulkan 1.3 has: the device and "
+                  "VkApplicationInfo::apiVersion of the instance must both be at least 1.3.",
+                  missing);
   }
   return create(desc, table, out);
 }

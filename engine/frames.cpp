@@ -17,10 +17,16 @@ FrameObject::~FrameObject() {
 
 void FrameList::advance(uint64_t submitting, uint64_t completed) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  begun_ = 0;
   submitting_ = submitting;
   completed_ = completed;
   for (FrameObject* object = newest_; object != nullptr; object = object->previous_)
     object->frameCompleted(completed);
+}
+
+bool FrameList::forgotten() {
+  constexpr uint32_t kMany = 1000;
+  return ++begun_ == kMany;
 }
 
 void FrameList::abandon(uint64_t frame) {

@@ -46,6 +46,8 @@ class FrameList {
   /// The numbers are checked by the caller.
   void advance(uint64_t submitting, uint64_t completed);
   void abandon(uint64_t frame);
+  /// Counts a frame of an object. True once: after many of them without advance().
+  bool forgotten();
   /// Notifies all others that this one is about to be destroyed.
   void announceDestruction(const FrameObject* object);
   /// Destroys all objects, the newest first.
@@ -54,6 +56,7 @@ class FrameList {
  private:
   friend class FrameObject;
   std::atomic<uint64_t> submitting_{1}, completed_{0};
+  std::atomic<uint32_t> begun_{0};  ///< Since advance().
   std::mutex mutex_;
   FrameObject* newest_ = nullptr;
 };

@@ -59,7 +59,7 @@ void sunDirection(double latitude, double longitude, double elevation, double az
 
 namespace {
 
-/// A latitude is within rounding of the poles' interval.
+/// Of latitudes and elevations: within rounding of a right angle either way.
 bool isLatitude(double value) { return std::abs(value) <= 0.5 * kPi + 1e-9; }
 
 bool areFinite(std::initializer_list<double> values) {
@@ -141,7 +141,7 @@ Camera cameraAt(const Parameters& planet, const World& world, double latitude, d
 void directionAt(const World& world, double latitude, double longitude, double elevation,
                  double azimuth, double direction[3]) {
   std::fill_n(direction, 3, 0.0);
-  if (!isLatitude(latitude) || !areFinite({longitude, elevation, azimuth})) return;
+  if (!isLatitude(latitude) || !isLatitude(elevation) || !areFinite({longitude, azimuth})) return;
   double planet[3];
   sunDirection(latitude, longitude, elevation, azimuth, planet);
   passes::Placement(world).directionToWorld(planet, direction);

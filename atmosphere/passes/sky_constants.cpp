@@ -90,6 +90,21 @@ Status checkDraw(const engine::Device& device, Projection projection, const Fram
     return refuse(device, "Camera::position", c.position_m,
                   "finite, away from the planet's centre and within 1e15 m of it");
   }
+  constexpr double kAbsent[3] = {};
+  if (std::equal(kAbsent, kAbsent + 3, c.forward)) {
+    return device.fail(
+        Status::InvalidArgument, VK_SUCCESS,
+        "FrameDesc::cameras[0] is absent, since Camera::forward is (0, 0, 0), but is "
+        "required. cameraAt returns this for angles beyond their range: they are in "
+        "radians.");
+  }
+  if (std::equal(kAbsent, kAbsent + 3, draw.sun.direction)) {
+    return device.fail(
+        Status::InvalidArgument, VK_SUCCESS,
+        "FrameDesc::lights[0] is absent, since Light::direction is (0, 0, 0), but is "
+        "required. directionAt returns this for angles beyond their range: they are "
+        "in radians.");
+  }
   Status status = checkDirection(device, "Camera::forward", c.forward);
   if (status == Status::Ok) status = checkDirection(device, "Camera::up", c.up);
   if (status != Status::Ok) return status;

@@ -51,12 +51,17 @@ void Warnings::check(const engine::Device& device, const Parameters& parameters,
   const double solidAngle = 4.0 * 3.14159265358979323846 * std::pow(std::sin(0.5 * radius), 2.0);
   const double scale = state.radianceScale == 0.0 ? 1.0 : state.radianceScale;
   const double most = greatestValue(colorFormat);
-  const double disc = radius > 0.0 ? brightest * scale / solidAngle : 0.0;
+  if (overflow_ || radius <= 0.0 || brightest * scale / solidAngle <= most) return;
+  const Spectrum light = passes::sunlight(parameters, state);
+  const double disc =
+      *std::max_element(light.value, light.value + kSpectrumSize) * scale / solidAngle;
   if (once(&overflow_, disc > most)) {
-    device.notice(Severity::Warning,
-                  "FrameDesc::radianceScale of %g makes the sun's disc up to %g, but "
-                  "ViewDesc::colorFormat holds at most %g.",
-                  scale, disc, most);
+    device.notice(
+        Severity::Warning,
+        "FrameDesc::radianceScale of %g makes the sun's disc %g, but ViewDesc::colorFormat "
+        "holds at most %g, and infinity beyond: choose a smaller scale, draw without a "
+        "disc, or let your tone mapping take infinity for white, as tone_map.glsl does.",
+        scale, disc, most);
   }
 }
 

@@ -101,6 +101,11 @@ TEST(Camera, PlacesBeyondThePolesAreRefused) {
     directionAt({}, bad, 0.0, 0.5, 0.0, direction);
     EXPECT_EQ(dot(direction, direction), 0.0);
   }
+  for (const double elevation : {20.0, -1.7, kNan}) {
+    double direction[3] = {1.0, 1.0, 1.0};
+    directionAt({}, 0.1, 0.0, elevation, 0.0, direction);
+    EXPECT_EQ(dot(direction, direction), 0.0) << elevation;
+  }
   const Camera camera = cameraAt(earth(), {}, 0.1, 0.0, 2.0, 0.0, kNan, 0.0);
   EXPECT_EQ(dot(camera.forward, camera.forward), 0.0);
 }

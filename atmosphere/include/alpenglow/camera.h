@@ -48,7 +48,8 @@ struct Camera {
   double jitter[2] = {};  ///< In pixels. Must be 0 in this version.
   double nearPlane = 0, farPlane = 0;  ///< Along `forward`; farPlane 0: infinitely far
                                        ///< (perspective). Read only in views with a scene depth.
-  VkRect2D viewport = {};  ///< Pixels of the attachment; zero: all of FrameDesc::sceneDepth.
+  VkRect2D viewport = {};              ///< Pixels of the attachment. Zero: all of
+                                       ///< FrameDesc::sceneDepth; required without one.
 };
 
 /// Places the world's origin at a point of the planet, axes along the local east, north and up.

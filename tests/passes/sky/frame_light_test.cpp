@@ -148,6 +148,11 @@ TEST_F(FrameTest, WarningsComeOnceForAView) {
   heard.clear();
   EXPECT_EQ(beginFrame(floats, bright, nullptr), Status::Ok);
   EXPECT_TRUE(heard.empty());
+  // A host that never states its frames.
+  for (int i = 0; i < 2500; ++i) ASSERT_EQ(beginFrame(floats, good, nullptr), Status::Ok);
+  ASSERT_EQ(heard.size(), 1u);
+  EXPECT_TRUE(hasAll(heard[0].text, "advanceFrame|once a frame")) << heard[0].text;
+  EXPECT_EQ(heard[0].severity, Severity::Warning);
   destroyContext(made);
 }
 
