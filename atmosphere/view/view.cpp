@@ -166,12 +166,7 @@ Status View::beginFrame(const FrameDesc& desc, FrameWork* work) {
   frame_.number = device_.submitting();
   frame_.valid = false;
   frame_.mapRecorded = frame_.lightShaftsRecorded = false;
-  if (device_.frames().forgotten()) {
-    device_.notice(
-        Severity::Warning,
-        "beginFrame was called a thousand times without advanceFrame, which must be "
-        "called once a frame: what was destroyed, and scratch of bakes, is never freed.");
-  }
+  view::Warnings::checkAdvanced(device_);
   const Status status = takeFrame(desc);
   if (status != Status::Ok) return status;
   frame_.valid = true;

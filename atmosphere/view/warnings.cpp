@@ -30,6 +30,13 @@ bool Warnings::once(bool* reported, bool seen) {
   return true;
 }
 
+void Warnings::checkAdvanced(engine::Device& device) {
+  if (!device.frames().forgotten()) return;
+  device.notice(Severity::Warning,
+                "beginFrame was called a thousand times without advanceFrame, which must be called "
+                "once a frame: what was destroyed, and scratch of bakes, is never freed.");
+}
+
 void Warnings::check(const engine::Device& device, const Parameters& parameters,
                      const FrameState& state, VkFormat colorFormat) {
   const double depth = parameters.bottomRadius_m - passes::cameraRadius(state.camera);

@@ -11,6 +11,8 @@ class Warnings {
   /// Of a frame that has been checked.
   void check(const engine::Device& device, const Parameters& parameters, const FrameState& state,
              VkFormat colorFormat);
+  /// A frame begins: of hosts that never call advanceFrame. Once a context, not a view.
+  static void checkAdvanced(engine::Device& device);
   /// For CasterSet, whose casters are seen while they are drawn.
   bool* outsideCasters() { return &outsideCasters_; }
 
