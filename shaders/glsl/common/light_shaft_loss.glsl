@@ -8,7 +8,10 @@ layout(constant_id = 10) const float kMultipleLoss = 0.7;
 
 // Multiple scattering is lost with the single scattering of the same ray only where single scattering is at least
 // this share of it. At dusk single scattering is nearly zero, and the light of other parts of the sky remains.
-const float kRelatedShare = 0.1;
+const float kRelatedShare = 0.3;
+Spectrum relatedShare(AerialLight light) {
+  return min(light.single / max(kRelatedShare * light.multiple, SPECTRUM(1e-30)), SPECTRUM(1.0));
+}
 
 // Loss of single scattering, from the sum over the crossings of the ray with the light-volume mesh.
 Spectrum lightVolumeLoss(vec2 fragCoord, Spectrum whole) {
@@ -44,16 +47,17 @@ Spectrum rayMarchLoss(vec2 fragCoord, AerialRay aerial, vec3 view, float end) {
 
 // Equations 17 and 18 of the paper, for all orders: a ray that ends on a surface loses the light of its last
 // metres, a ray to the sky that of its first.
-Spectrum shadowVolumeLoss(vec2 fragCoord, AerialRay aerial, Spectrum whole, float end, float start, bool ground) {
+Spectrum shadowVolumeLoss(vec2 fragCoord, AerialRay aerial, AerialLight whole, float end, float start, bool ground) {
   vec2 sums = texelFetch(alpenglowLightShaftSums, ivec2(fragCoord), 0).xy;
   vec2 bounds = texelFetch(alpenglowLightShaftBounds, ivec2(fragCoord), 0).xy;  // (-zmin, zmax)
   float zGround = max(end - start, 0.0);
   float zMin = min(-bounds.x, zGround);
   float onGround = clamp(sums.y - sums.x * zGround, 0.0, zGround - zMin);
   float inSky = clamp(sums.y, 0.0, bounds.y);
-  AerialLight light = alpenglowAerialLight(aerial, start + (ground ? zGround - onGround : inSky));
-  Spectrum part = light.single + light.multiple;
-  return ground ? max(whole - part, SPECTRUM(0.0)) : min(part, whole);
+  AerialLight part = alpenglowAerialLight(aerial, start + (ground ? zGround - onGround : inSky));
+  Spectrum single = ground ? max(whole.single - part.single, SPECTRUM(0.0)) : min(part.single, whole.single);
+  Spectrum multiple = ground ? max(whole.multiple - part.multiple, SPECTRUM(0.0)) : min(part.multiple, whole.multiple);
+  return single + relatedShare(whole) * multiple;
 }
 
 // Loss of `light`, the single and multiple scattering of the first `end` metres of a ray; `ground`: the ray ends
@@ -62,10 +66,9 @@ Spectrum lightShaftLoss(vec2 fragCoord, AerialRay aerial, vec3 view, float start
                         bool ground) {
   if (alpenglowLightShaft.pixels.z < 0.0) return SPECTRUM(0.0);
   if (kLightShaftMethod == kShadowVolume)
-    return shadowVolumeLoss(fragCoord, aerial, light.single + light.multiple, end, start, ground);
+    return shadowVolumeLoss(fragCoord, aerial, light, end, start, ground);
   Spectrum single = kLightShaftMethod == kLightVolume ? lightVolumeLoss(fragCoord, light.single)
                                                       : rayMarchLoss(fragCoord, aerial, view, end);
-  Spectrum least = max(kRelatedShare * light.multiple, SPECTRUM(1e-30));
-  Spectrum share = min(single / max(light.single, least), SPECTRUM(1.0));
-  return single + kMultipleLoss * share * light.multiple;
+  Spectrum share = min(single / max(light.single, SPECTRUM(1e-30)), SPECTRUM(1.0));
+  return single + kMultipleLoss * relatedShare(light) * share * light.multiple;
 }
