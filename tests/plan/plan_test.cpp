@@ -224,7 +224,8 @@ TEST(Plan, RefusesTablesThatCanNotBeMade) {
        }},
       {"azimuths is 2", [](TableDesc* d) { d->sizes.azimuths = 2; }},
       {"solver 9", [](TableDesc* d) { d->solver = static_cast<Solver>(9); }},
-      {"from 2 to 1", [](TableDesc* d) { d->sunZenithFrom = 2.0, d->sunZenithTo = 1.0; }},
+      {"sunZenithFrom is 2 and sunZenithTo 1",
+       [](TableDesc* d) { d->sunZenithFrom = 2.0, d->sunZenithTo = 1.0; }},
   };
   for (const auto& c : cases) {
     PlanRequest request = noon();
