@@ -40,8 +40,7 @@ void Baker::start(bool draft) {
                            draft ? draftOf(wish_.plan.tables) : wish_.plan.tables, nullptr};
   Tables* made = nullptr;
   gpu_->check(createTables(context_, baked.parameters, baked.desc, &made));
-  const samples::Gpu* gpu = gpu_;
-  baked.tables = {made, [gpu](Tables* tables) { destroyTables(tables); }};
+  baked.tables = {made, [](Tables* tables) { destroyTables(tables); }};
   baking_ = std::move(baked);
   draft_ = draft;
   progress_ = {};
