@@ -12,7 +12,6 @@ namespace {
 using reference::Vector;
 using reference::test::box;
 
-constexpr VkExtent2D kExtent = {40, 24};
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
 constexpr LightShaftMethod kMethods[] = {
     LightShaftMethod::LightVolume, LightShaftMethod::ShadowVolume, LightShaftMethod::RayMarch};
