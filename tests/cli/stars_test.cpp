@@ -205,7 +205,7 @@ TEST_F(Stars, TheSumIsTheSameBetweenPixelsAtAnySizeAndProjection) {
   shots[5].height = 64;
   shots[5].fov_deg = 1.0;  // Wider, it would show a neighbour.
   shots[6].fov_deg = 0.5;
-  for (const size_t i : {7, 8}) shots[i].projection = "fisheye";
+  for (const size_t i : {size_t{7}, size_t{8}}) shots[i].projection = "fisheye";
   shots[8].aim.elevation_deg += 0.5;
   for (const Shot& other : shots) {
     EXPECT_NEAR(irradiance(render(other, true), other)[1], expected, 1e-4 * expected)
