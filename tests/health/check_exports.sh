@@ -8,7 +8,7 @@ shift 2
 
 # Declarations begin in column 0 there: `ALPENGLOW_API Status createView(`, and so does what lacks
 # its ALPENGLOW_API.
-declared="$(cat atmosphere/include/alpenglow/*.h |
+declared="$(cat atmosphere/include/alpenglow/*.h atmosphere/include/alpenglow/{mesh,reference}/*.h |
   sed -nE '/^(using|constexpr|inline|struct|enum|namespace|template|extern|static)/d
            s/^[A-Za-z][^()]*[ *&]([A-Za-z_][A-Za-z_0-9]*)\(.*/\1/p' | sort -u)"
 exported=""
