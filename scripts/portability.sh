@@ -64,7 +64,7 @@ step_shared() {
 
 # What Wine's picture is compared with comes from here.
 step_plain() {
-  build plain "${core[@]}" -DALPENGLOW_CORE_WITHOUT_EXCEPTIONS=ON -DCMAKE_CXX_FLAGS_RELEASE=-O1
+  build plain "${core[@]}" -DALPENGLOW_CORE_WITHOUT_EXCEPTIONS=ON -DCMAKE_CXX_FLAGS_RELEASE=-O0
   cmake --install "$work/plain" --prefix "$work/plain/prefix" >/dev/null
   embed "$work/plain/embed" "$work/plain/prefix" "-DCMAKE_CXX_FLAGS=-fno-exceptions -fno-rtti"
   "$work/plain/embed/embed_minimal" "$work/plain/sky.ppm" --small
@@ -75,7 +75,7 @@ step_mingw() {
   local toolchain=(--toolchain "$root/cmake/mingw-w64.cmake"
     "-DALPENGLOW_MINGW_ROOT=$work/mingw-root")
   scripts/mingw_root.sh "$work/mingw-root"
-  build mingw "${core[@]}" "${toolchain[@]}" -DCMAKE_CXX_FLAGS_RELEASE=-O1
+  build mingw "${core[@]}" "${toolchain[@]}" -DCMAKE_CXX_FLAGS_RELEASE=-O0
   cmake --install "$work/mingw" --prefix "$work/mingw-root" >/dev/null
   # Once linked to vulkan-1.dll, once by volk.
   embed "$work/mingw/linked" "$work/mingw-root" "${toolchain[@]}"

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 
 #include "../io/schema.h"
 #include "program.h"
@@ -252,6 +253,27 @@ TEST_F(Probe, BadOutputsAreRefusedBeforeTheBake) {
 }
 
 // Neither replaced nor written over: lines before and after stay.
+// By any name that leads there.
+TEST_F(Probe, InputsAreNotOverwritten) {
+  const std::string link = folder_ / "link.json", hard = folder_ / "hard.json";
+  std::filesystem::create_symlink(queries_, link);
+  std::filesystem::create_hard_link(queries_, hard);
+  const std::string scene = folder_.write(
+      "scene.json", R"({"atmosphere": "earth", "camera": {}, "sun": {"elevation_deg": 9}})");
+  for (const std::string& output : {queries_, link, hard}) {
+    expectRefused(joined({"probe", scene, "--queries", queries_, "-o", output}, endlessTables()),
+                  {"-o", output, "overwritten"});
+    expectRefused(joined(probeOf(endlessTables()), {"--report", output}),
+                  {"--report", output, "overwritten"});
+  }
+  expectRefused(joined({"probe", scene, "--queries", queries_, "-o", scene}, endlessTables()),
+                {"-o", scene, "overwritten"});
+  expectGood(joined({"bake", "earth", "-o", folder_ / "t.exr"}, smallMoments()));
+  expectRefused({"render", scene, "--tables", folder_ / "t.exr", "-o", folder_ / "t.exr"},
+                {"-o", "t.exr", "overwritten"});
+  EXPECT_EQ(contentsOf(queries_), kQueries);
+}
+
 TEST_F(Probe, TheStandardOutputGoesOnWhereItIs) {
   const std::string probe = std::string(ALPENGLOW_PROGRAM) + " probe earth --queries " + queries_ +
                             " --method reference --orders 1 -o ";

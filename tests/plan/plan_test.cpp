@@ -86,6 +86,38 @@ TEST(Plan, AnUnlimitedRequestEnablesEverything) {
   EXPECT_EQ(plan.tables.sunZenithTo, 0.0);
 }
 
+// A degree below the horizon of their greatest altitude, and of the top where that is not known.
+TEST(Plan, CastersInThePlanetsShadowNeedNoLightShafts) {
+  const auto shafts = [](double elevation, double casterAltitude_m) {
+    PlanRequest request;
+    request.altitudeTo_m = 3000.0;
+    request.sunElevationFrom = request.sunElevationTo = elevation * kDegree;
+    request.sunFixed = true;
+    request.casters = true;
+    request.casterAltitude_m = casterAltitude_m;
+    const Plan plan = planOf(request);
+    const PlanChoice& choice = plan.choices[static_cast<uint32_t>(Effect::LightShafts)];
+    EXPECT_EQ(plan.view.lightShafts.method == LightShaftMethod::Off, !choice.on);
+    if (!choice.on) EXPECT_NE(std::string(choice.reason).find("shadow covers"), std::string::npos);
+    return choice.on;
+  };
+  // 3 km high the horizon is 1.76 degrees low.
+  for (const double elevation : {10.0, 0.0, -2.0}) EXPECT_TRUE(shafts(elevation, 3000.0));
+  for (const double elevation : {-4.0, -6.0, -12.0}) EXPECT_FALSE(shafts(elevation, 3000.0));
+  EXPECT_TRUE(shafts(-6.0, 0.0));
+  EXPECT_FALSE(shafts(-12.0, 0.0));
+  // Those of a plan for lower casters are not enough for higher ones.
+  PlanRequest low;
+  low.altitudeTo_m = 3000.0;
+  low.sunElevationFrom = low.sunElevationTo = -2.2 * kDegree;
+  low.sunFixed = low.casters = true;
+  low.casterAltitude_m = 1000.0;
+  PlanRequest high = low;
+  high.casterAltitude_m = 2000.0;
+  EXPECT_NE(comparePlans(planOf(low), planOf(high), {}), 0u);
+  EXPECT_EQ(comparePlans(planOf(high), planOf(low), {}), 0u);
+}
+
 TEST(Plan, EffectsFollowTheMedium) {
   EXPECT_FALSE(on(planOf(noon(), "earth-clear"), Effect::Mie));
   EXPECT_FALSE(on(planOf(noon(), "earth-fig6"), Effect::Absorption));
