@@ -110,7 +110,7 @@ CasterSet casterSet(const FrameDesc& desc, const FrameState& state) {
     casters.bounds = planetBox(passes::Placement(desc.world), desc.casters.bounds);
     return casters;
   }
-  // Nothing casts: an empty map of a metre about the camera.
+  // Nothing casts, and no map is drawn; the place of one, a metre about the camera.
   std::copy_n(state.camera.position_m, 3, casters.bounds.center_m);
   for (int i = 0; i < 3; ++i) casters.bounds.halfAxes_m[i][i] = 1.0;
   return casters;

@@ -98,10 +98,11 @@ TEST_F(LightShaftFramesTest, TheShadowMapIsDrawnWhenSomethingChanges) {
   EXPECT_TRUE(drawsMap(frameWith(0))) << "No version.";
   EXPECT_TRUE(drawsMap(frameWith(0)));
   EXPECT_TRUE(drawsMap(frameWith(5)));
-  // Null: nothing casts.
+  // Null: nothing casts, and what is drawn before stays valid.
   FrameDesc nothing = frameWith(5);
   nothing.casters = {};
-  EXPECT_TRUE(drawsMap(nothing));
+  EXPECT_FALSE(drawsMap(nothing));
+  EXPECT_FALSE(drawsMap(frameWith(5)));
 }
 
 // A direction that a host computes again may differ in the last bit.
