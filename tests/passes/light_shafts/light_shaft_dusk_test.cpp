@@ -72,14 +72,14 @@ class LightShaftDuskTest : public ShadowCheckTest {
 };
 
 /// Tenths of a degree, falling. In the default tests every one about the suns at which the casters'
-/// tops and feet enter the planet's shadow, and each fifth elsewhere; every one in the long tests.
+/// tops and feet enter the planet's shadow, and each tenth elsewhere; every one in the long tests.
 std::vector<int> suns() {
   std::vector<int> tenths;
   for (int sun = 50; sun >= -120; --sun) {
 #ifdef ALPENGLOW_ALL_METHODS
     tenths.push_back(sun);
 #else
-    if ((sun <= 2 && sun >= -30) || sun % 5 == 0) tenths.push_back(sun);
+    if ((sun <= -9 && sun >= -28) || sun % 10 == 0) tenths.push_back(sun);
 #endif
   }
   return tenths;
