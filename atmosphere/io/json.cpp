@@ -154,8 +154,8 @@ Result<Json> parseJson(const std::string& text, const std::string& name) {
   bool tooDeep = false, holdsNul = false;
   const auto watch = [&](int depth, Json::parse_event_t event, Json& parsed) {
     tooDeep = tooDeep || depth > kMaxDepth;
-    const bool isText = event == Json::parse_event_t::key || event == Json::parse_event_t::value;
-    holdsNul = holdsNul || (isText && parsed.is_string() &&
+    const bool mayBeText = event == Json::parse_event_t::key || event == Json::parse_event_t::value;
+    holdsNul = holdsNul || (mayBeText && parsed.is_string() &&
                             parsed.get_ref<const std::string&>().find('\0') != std::string::npos);
     if (event == Json::parse_event_t::object_start) {
       objects.emplace_back();

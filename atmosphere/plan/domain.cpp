@@ -27,11 +27,11 @@ constexpr double kMargin = 4.0;
 /// Half an 8-bit step of sRGB's straight part.
 constexpr double kHalfStep = 0.5 / 255.0 / 12.92;
 
+}  // namespace
+
 double horizonArc(double radius_m, double altitude_m) {
   return std::acos(radius_m / (radius_m + std::max(altitude_m, 0.0)));
 }
-
-}  // namespace
 
 SunRange widened(const Parameters& parameters, const PlanRequest& request) {
   SunRange range = sunRange(request);

@@ -188,8 +188,7 @@ class Decider {
       return;
     }
     const double top = request_.casterAltitude_m;
-    const double dip =
-        top > 0.0 ? std::acos(p_.bottomRadius_m / (p_.bottomRadius_m + top)) : medium_.dipOfTop;
+    const double dip = top > 0.0 ? horizonArc(p_.bottomRadius_m, top) : medium_.dipOfTop;
     // A degree more: casters stand some way from the camera, whose sun the range is.
     const double lowest = -std::min(dip, medium_.dipOfTop) - p_.sunAngularRadius - kDegree;
     const bool lit = range_.to > lowest;

@@ -37,6 +37,9 @@ struct SunRange {
 };
 /// The range of the request, or all elevations.
 SunRange sunRange(const PlanRequest& request);
+/// Angle at the planet's centre from a point at this altitude to its horizon, which is also the dip
+/// of that horizon. Radians.
+double horizonArc(double radius_m, double altitude_m);
 /// The same at all places where light is needed: as far as the horizon, from above the top of the
 /// atmosphere as far as the far side of the limb.
 SunRange widened(const Parameters& parameters, const PlanRequest& request);
